@@ -251,11 +251,11 @@ class Names(unittest.TestCase):
 class Stays(unittest.TestCase):
     def test_they_are_compared_with_hold_up_over_feed(self):
         found = Residence(*np.zeros((3, 1)), mean=33.0, variance=33.0**2 / 2, left=0.13, tail=30.0)
-        (line,) = study.stay_lines([Stay("Beetstra_75_131", found, 30.0)])
+        (line,) = study.stay_lines([Stay("Beetstra_75_131", found, 30.0, -6e-5, 1 + 4e-7)])
         begin = ("residence/Beetstra_75_131: slurry stays 33.0 s, +10.0 % from hold-up over feed, 30.0 s; 2.00 stirred "
                  "tanks in series, Pe ")
         self.assertTrue(line.startswith(begin), line)
-        self.assertTrue(line.endswith("; 13 % had not left"), line)
+        self.assertTrue(line.endswith("; 13 % had not left; concentration from -6.0e-05 to 1 +4.0e-07"), line)
 
     def test_a_flow_that_is_not_complete_is_named(self):
         folder = Path(self.enterContext(tempfile.TemporaryDirectory()))

@@ -200,10 +200,12 @@ def read_trial(folder: Path) -> Trial:
 @dataclass(frozen=True)
 class Stay:
     """A flow with a tracer in its feed: name; how long slurry stays; hold-up over feed (s) from the tracer's begin
-    on."""
+    on; smallest and largest concentration, over that of the inlet."""
     name: str
     found: Residence
     expected: float
+    lowest: float
+    highest: float
 
 
 def read_stay(folder: Path) -> Stay:
@@ -211,7 +213,7 @@ def read_stay(folder: Path) -> Stay:
     case = complete_case(folder)
     table, columns = read_tracer(folder), case.balance
     held, fed = (time_mean(columns["Time"], columns[name], table.begin) for name in ("holdUp", "feed"))
-    return Stay(folder.name, residence(table), held / fed)
+    return Stay(folder.name, residence(table), held / fed, table.lowest, table.highest)
 
 
 def expected_volume(feed: float, trials: Sequence[Trial]) -> float:

@@ -146,7 +146,8 @@ def stay_lines(stays: Sequence[Stay]) -> Iterator[str]:
         yield (f"residence/{one.name}: slurry stays {found.mean:.1f} s, {100 * (found.mean / one.expected - 1):+.1f} % "
                f"from hold-up over feed, {one.expected:.1f} s; {found.tanks:.2f} stirred tanks in series, Pe "
                f"{found.peclet:.2f}; estimates, mean and spread by {mean:.1f} and {spread:.1f} % with another fit of "
-               f"the tail; {100 * found.left:.0f} % had not left")
+               f"the tail; {100 * found.left:.0f} % had not left; concentration from {one.lowest:.1e} to 1 "
+               f"{one.highest - 1:+.1e}")
 
 
 def difference_line(one: Held, base: Held) -> str:

@@ -7,6 +7,8 @@ import numpy as np
 from scipy.optimize import brentq
 
 from ..files.tables import TableError, read_table
+from .batches import error_over_turns
+from .means import Mean, time_mean
 
 # Share of the tracer that may still be in the mill. With 20 % the mean of two to five stirred tanks is 1 % too large
 # and the variance over its square 7 to 12 %; with 28 % they are 3 and 12 to 20 %
@@ -102,6 +104,20 @@ def closed_spread(peclet: float) -> float:
     if peclet < 1e-2:
         return 1 - peclet / 3 + peclet**2 / 12
     return 2 / peclet + 2 * np.expm1(-peclet) / peclet**2
+
+
+def tracer_names(case: Path | str) -> list[str]:
+    """Names of the slurryTracers of which a case has a table, sorted."""
+    return sorted({table.parent.parent.name for table in Path(case).glob("postProcessing/*/*/slurryTracer*.dat")})
+
+
+def hold_up_over_feed(columns: dict[str, np.ndarray], table: TracerTable, turn: float) -> Mean | None:
+    """Mean time (s) that slurry stays in a steady mill, from the begin of a tracer on, with the error of the hold-up
+    over whole turns, NaN for fewer than two; None without a feed. columns: of slurryBalance; turn: of the mill, s."""
+    held, fed = (time_mean(columns["Time"], columns[name], table.begin) for name in ("holdUp", "feed"))
+    if not fed > 0:
+        return None
+    return Mean(held / fed, error_over_turns(columns["Time"], columns["holdUp"], table.begin, turn) / fed)
 
 
 def read_tracer(case: Path | str, name: str = "tracer") -> TracerTable:

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Whether a run is reliable: what the checks found, and what to do if they fail."""
 from ..files.mill_case import MillCase
+from ..readings.residence import tracer_names
 from .charge_checks import (averaging_volume, charge_steadiness, contact_balance, follows_shell, ledger, lost_balls,
                             overlap, torque_balance, window_noise)
 from .coupling_section import coupling_checks
@@ -8,6 +9,7 @@ from .flow_checks import (averaged_time, conservation, continuity, courant, drag
                           mesh, one_way, slurry_torques, solids_on_mesh, yield_stress)
 from .stages import same_mill
 from .steadiness import flow_steadiness
+from .tracer_checks import mean_time, tracer_bounds
 from .verdict import Check
 
 ORDER = ("fails", "look", "unknown", "holds")
@@ -20,6 +22,7 @@ def all_checks(case: MillCase) -> list[Check]:
         functions += [conservation, flow_steadiness, courant, mesh, yield_stress]
         functions += [averaged_time] if case.slurry else []
         functions += [fed_as_asked] if case.mill.flow("feed_m3_s", 0.0) else []
+        functions += [tracer_bounds, mean_time] if tracer_names(case.folder) else []
         functions += [slurry_torques] if "torque_balls" in (case.balance or {}) else []
     if case.results:
         functions += [lost_balls, charge_steadiness, overlap]

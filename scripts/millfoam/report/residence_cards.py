@@ -5,9 +5,7 @@ from scipy.special import gammaln
 
 from ..files.mill_case import MillCase
 from ..files.tables import TableError
-from ..readings.batches import error_over_turns
-from ..readings.means import time_mean
-from ..readings.residence import Residence, TracerTable, read_tracer, residence
+from ..readings.residence import Residence, TracerTable, hold_up_over_feed, read_tracer, residence, tracer_names
 from . import figures, page
 from .words import Name, uncertain
 
@@ -18,10 +16,10 @@ BINS = 50  # of each mean time
 def residence_cards(case: MillCase) -> list[str]:
     """A picture and a table for each slurryTracer; none without one."""
     cards = []
-    for path in sorted({table.parent.parent for table in case.folder.glob("postProcessing/*/*/slurryTracer*.dat")}):
-        title = Name(f"Residence time: {path.name}")
+    for name in tracer_names(case.folder):
+        title = Name(f"Residence time: {name}")
         try:
-            table = read_tracer(case.folder, path.name)
+            table = read_tracer(case.folder, name)
             found = residence(table)
         except (TableError, RuntimeError) as error:
             cards.append(page.table(None, [("not known", str(error))], title=title))
@@ -63,18 +61,19 @@ def rows(case: MillCase, table: TracerTable, found: Residence) -> list[tuple[str
     """Rows (name, text) of a Residence."""
     peclet = "above 10⁶" if np.isinf(found.peclet) else f"{found.peclet:.3g}" if found.peclet else "0: a stirred tank"
     numbers = [("mean time in the mill", f"{found.mean:.4g} s")]
-    if case.balance is not None:
-        times = case.balance["Time"]
-        held, fed = (time_mean(times, case.balance[name], table.begin) for name in ("holdUp", "feed"))
-        error = error_over_turns(times, case.balance["holdUp"], table.begin, case.turn) / fed
+    expected = hold_up_over_feed(case.balance, table, case.turn) if case.balance is not None else None
+    if expected:
         numbers.append(("hold-up over feed, from the tracer's begin on",
-                        f"{uncertain(held / fed, error, 's', '.4g')}, {100 * (found.mean / (held / fed) - 1):+.2g} %"))
+                        f"{uncertain(expected.value, expected.error, 's', '.4g')}, "
+                        f"{100 * (found.mean / expected.value - 1):+.2g} %"))
     return numbers + [("standard deviation", f"{np.sqrt(max(found.variance, 0)):.4g} s"),
                       ("stirred tanks in series", f"{found.tanks:.3g}" if np.isfinite(found.tanks) else "no spread"),
                       ("Péclet number of axial dispersion, both ends closed", peclet),
                       ("tracer that has not left", f"{100 * found.left:.3g} %"),
                       ("time of its exponential", f"{found.tail:.3g} s" if found.tail else "–"),
-                      ("missing in the tracer's balance", f"{table.missing:.1g}")]
+                      ("missing in the tracer's balance", f"{table.missing:.1g}"),
+                      ("smallest and largest concentration, of the inlet's",
+                       f"{table.lowest:.1e} and 1 {table.highest - 1:+.1e}")]
 
 
 def distribution(found: Residence) -> figures.Figure:
