@@ -433,15 +433,20 @@ class InABox(SlurryTest):
         case = self.slurry_case(end_time=0.02, motion=rotating_mesh(0.5))
         case.bed(MOVING_BALLS, entries=entries)
         case.field_file("tracer", "volScalarField", "0 0 0 0 0 0 0", 0.5, '".*" { type zeroGradient; }')
-        control = case.path / "system" / "controlDict"
-        control.write_text(control.read_text() + """
-            functions { tracer { type slurryTracer; libs ("libmillFoam.so"); writePrecision 14; } }""")
-        for name, entry in (("fvSchemes", "divSchemes { div(alphaPhi,tracer) Gauss vanLeer; }"),
-                            ("fvSolution", "solvers { tracer { solver PBiCGStab; preconditioner DILU; tolerance 1e-12; "
-                                           "relTol 0; nLimiterIter 3; } }")):
+        self.add_tracer(case, "tracer")
+        return case, case.run("slurryFoam")
+
+    @staticmethod
+    def add_tracer(case, tracer):
+        """A slurryTracer of this name, whose field the start time has, with its scheme and solver."""
+        for name, entry in (
+                ("controlDict", f'functions {{ {tracer} {{ type slurryTracer; libs ("libmillFoam.so"); '
+                                'writePrecision 14; } }'),
+                ("fvSchemes", f"divSchemes {{ div(alphaPhi,{tracer}) Gauss vanLeer; }}"),
+                ("fvSolution", f"solvers {{ {tracer} {{ solver PBiCGStab; preconditioner DILU; tolerance 1e-12; "
+                               "relTol 0; nLimiterIter 3; } }")):
             file = case.path / "system" / name
             file.write_text(file.read_text() + entry)
-        return case, case.run("slurryFoam")
 
     def test_a_uniform_tracer_stays_uniform_between_moving_balls(self):
         case, result = self.tracer_in_a_bed()
@@ -451,6 +456,27 @@ class InABox(SlurryTest):
         self.assertAlmostEqual(found.highest, 0.5, delta=1e-10)
         self.assertLess(found.missing, 1e-10)
         self.assertGreater(case.steps()["voidage_change"].max(), 0.01)
+
+    def test_a_pulse_and_a_step_in_a_periodic_box_stay_within_their_bounds_and_are_conserved(self):
+        # A slanting flow, of which a surface cuts cells and balls make way
+        case = self.slurry_case(periodic=True, end_time=0.08, level=lambda x: 0.0375 + 0.2 * (x - 0.07))
+        case.write("constant/g", "dimensions [0 1 -2 0 0 0 0]; value (0 0 0);")
+        case.field_file("U", "volVectorField", "0 1 -1 0 0 0 0", "(0.3 0.1 0.05)", '".*" { type cyclic; }')
+        case.bed(MOVING_BALLS)
+        x = case.centres()[:, 0]
+        for name, part in (("pulse", np.abs(x - 0.05) < 0.006), ("step", x < 0.07)):
+            values = " ".join(str(int(one)) for one in part)
+            case.write(f"0/{name}", f"""dimensions [0 0 0 0 0 0 0];
+                internalField nonuniform List<scalar> {len(part)} ({values});
+                boundaryField {{ ".*" {{ type cyclic; }} }}""", "volScalarField")
+            self.add_tracer(case, name)
+        self.assert_runs(case, "slurryFoam")
+        for name in ("pulse", "step"):
+            found = read_tracer(case.path, name)
+            self.assertGreater(found.tracer[0], 1e-6, name)
+            self.assertGreater(found.lowest, -1e-10, name)
+            self.assertLess(found.highest, 1 + 1e-10, name)
+            self.assertLess(found.missing, 1e-10, name)
 
     def test_a_tracer_without_the_displacement_by_balls_is_refused(self):
         _, result = self.tracer_in_a_bed("voidageRate no;")
