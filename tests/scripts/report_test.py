@@ -320,7 +320,7 @@ class OneCase(Case):
         self.assertIn("Both are means over 4 whole turns of the flow. ±", net_note(case))
         self.assertNotIn("does not balance", net_note(case))
         case.turn = 0.3
-        self.assertIn("The power of slurry and drive needs three whole turns; this flow has 1. ±", net_note(case))
+        self.assertIn("The power of slurry and drive needs two whole turns; this flow has 1. ±", net_note(case))
         case.turn = 0.1
         (self.folder / "coupling.json").write_text(json.dumps({"format": "millfoam-coupling", "coupling": "direct",
                                                                "torque_disagreement": 0.0143,
