@@ -16,6 +16,7 @@ from unittest import mock
 import h5py
 import numpy as np
 
+from millfoam.files.slurry_file import VoxelMap
 from millfoam.readings.axial import gaussians
 from millfoam.readings.means import Mean
 from millfoam.run import set_options
@@ -188,6 +189,16 @@ class Bed(unittest.TestCase):
         slurry = slurry_map(lambda x, y: np.where(y < 0.05, 1.0, 0.0),
                             lambda x, y: np.where(x > 0, 5.0, np.where(y > 0.02, -0.3, 1.0)))
         self.assertAlmostEqual(flow_numbers.top_velocity(slurry), -0.3)
+
+    def test_top_of_the_shoulder_has_little_slurry_in_a_bed(self):
+        def slurry(voidage):
+            clear = slurry_map(lambda x, y: 0 * x + 1, lambda x, y: np.where(x < -0.05, 0.1, -0.1))
+            filled = np.where(np.meshgrid(*clear.centres())[0] < -0.05, voidage, 1.0)
+            return VoxelMap(clear.x, clear.y, clear.share, clear.velocity, np.isfinite(clear.share) * 1.0, filled,
+                            clear.share, 0.0, 1.0, source="functions")
+        bed = 0.5 * (1 + flow_numbers.top_velocity(slurry(1.0)) / 0.1)  # of the top's pixels
+        self.assertAlmostEqual(flow_numbers.top_velocity(slurry(0.45)), 0.1 * (0.45 * bed - (1 - bed)) / (
+            0.45 * bed + 1 - bed), places=12)
 
 
 class Statements(unittest.TestCase):

@@ -397,6 +397,12 @@ class SlurryWay(Case):
         np.testing.assert_allclose(parts.share, whole.share)
         np.testing.assert_allclose(parts.velocity, whole.velocity, atol=1e-12)
         self.assertEqual(parts.source, whole.source)
+        np.testing.assert_allclose(parts.filled(), whole.filled())
+        # Balls displace slurry
+        flow = case.flow
+        held = np.mean([flow.slurry(path)[flow.chamber].sum() for _, path in flow.frames_with_slurry(case.begin)])
+        self.assertAlmostEqual(whole.filled().sum() * whole.pixel() * case.length / held, 1, delta=0.03)
+        self.assertGreater(np.nansum(whole.share) * whole.pixel() * case.length / held, 1.1)
 
     def test_of_the_report_is_the_studys(self):
         self.undrawn()

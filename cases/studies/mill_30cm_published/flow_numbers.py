@@ -78,8 +78,8 @@ def net_rate(case: MillCase, turns: int) -> Mean:
 
 
 def top_velocity(slurry: SlurryMap) -> float:
-    """Mean velocity along the axis (m/s) of a SlurryMap's slurry in the highest TOP of its pixels on the rising side,
-    where its share is above a half; NaN without slurry."""
+    """Mean velocity along the axis (m/s) of a SlurryMap's slurry, weighted by its volume, in the highest TOP of its
+    pixels on the rising side, where its share is above a half; NaN without slurry."""
     velocity = axial_velocity(slurry)
     x, y = np.meshgrid(*slurry.centres())
     # The rising side is the left one of a mill that turns clockwise
@@ -88,7 +88,7 @@ def top_velocity(slurry: SlurryMap) -> float:
         return np.nan
     lowest = np.quantile(y[chosen], 1 - TOP)
     top = chosen & (y >= lowest)
-    return float(np.average(velocity[top], weights=slurry.share[top]))
+    return float(np.average(velocity[top], weights=slurry.filled()[top]))
 
 
 def share_at_centre(charge: SolidsMap, radius: float, maps: Sequence[SlurryMap]) -> Mean:

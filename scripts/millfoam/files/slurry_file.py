@@ -42,6 +42,10 @@ class SlurryMap:
         """Share of each pixel [ny, nx] that is within the mill: here 1, or 0 of pixels outside."""
         return np.isfinite(self.share).astype(float)
 
+    def filled(self) -> np.ndarray:
+        """Share of each pixel [ny, nx] that slurry fills: here its share of the fluid, as without balls."""
+        return np.nan_to_num(self.share) * self.room()
+
 
 @dataclass
 class VoxelMap(SlurryMap):
@@ -59,10 +63,14 @@ class VoxelMap(SlurryMap):
         """As SlurryMap.room; voxels that the shell cuts have a part."""
         return self.inside
 
+    def filled(self) -> np.ndarray:
+        """As SlurryMap.filled; where balls are, slurry fills only a part of its pores."""
+        return self.holdup * self.inside
+
     def centroid(self) -> tuple[float, float]:
         """Centre (x, y) of the slurry's volume, m."""
         x, y = self.centres()
-        volume = self.holdup * self.inside
+        volume = self.filled()
         along, up = ((volume.sum(axis=axis) * at).sum() / volume.sum() for axis, at in ((0, x), (1, y)))
         return float(along), float(up)
 

@@ -94,7 +94,7 @@ def entrained_air(slurry: SlurryMap, solidity: np.ndarray) -> float:
 @dataclass
 class HalfFlow:
     """Velocity along the axis (m/s, towards the discharge positive) of half of the slurry: mean, and lowest and highest
-    of 90 % of it, weighted by the share and by the part of a pixel within the shell."""
+    of 90 % of it, weighted by its volume (SlurryMap.filled)."""
     mean: float
     lowest: float
     highest: float
@@ -133,7 +133,7 @@ def axial_flow(slurry: SlurryMap, toe: float, shoulder: float) -> AxialFlow:
         if not chosen.any():
             raise RuntimeError(f"no slurry on the half of the {name}: it reaches from {toe:.0f} to {shoulder:.0f} "
                                "degrees")
-        values, weights = velocity[chosen], (slurry.share * slurry.room())[chosen]
+        values, weights = velocity[chosen], slurry.filled()[chosen]
         lowest, highest = map(float, weighted_percentile(values, weights, RANGE))
         halves.append(HalfFlow(float(np.average(values, weights=weights)), lowest, highest))
     return AxialFlow(velocity, float((middle + 180) % 360 - 180), *halves)
