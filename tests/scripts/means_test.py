@@ -72,6 +72,28 @@ class MeansTest(unittest.TestCase):
                 self.assertTrue(0.9 < ratio < 1.3, ratio)
                 self.assertGreater(np.mean([abs(one.value) < one.reach for one in found]), 0.94)
 
+    def test_few_turns_that_are_alike_have_few_degrees_of_freedom(self):
+        # With one degree less than turns it was 86 and 78 %
+        for correlation, least in ((0.0, 0.95), (0.6, 0.88), (0.8, 0.82)):
+            found = [turns_mean(series(correlation, 12, seed)) for seed in range(600)]
+            covered = np.mean([abs(one.value) < one.reach for one in found])
+            self.assertTrue(least < covered < 0.98, covered)
+
+    def test_a_larger_correlation_than_the_known_one_counts(self):
+        values = series(0.95, 40, seed=3)
+        self.assertEqual(turns_mean(values, 0.1), turns_mean(values))
+        self.assertLess(turns_mean(values).freedom, 10)
+        self.assertEqual(turns_mean(series(0.0, 40, seed=3), 0.9).freedom, deviation_freedom(0.9, 40))
+
+    def test_words_have_the_freedom_of_an_error_that_is_not_exact(self):
+        self.assertEqual(Mean(1.2e-3, 1e-4, 2).full_text("mm", 1e3),
+                         "1.2 ± 0.1 mm (95 %: ± 0.4, 2.0 degrees of freedom)")
+        for one in (Mean(1.2e-3, 1e-4), Mean(1.2e-3, np.nan, 0)):
+            self.assertEqual(one.full_text("mm", 1e3), one.text("mm", 1e3))
+
+    def test_a_multiple_has_its_part_of_the_error(self):
+        self.assertEqual(-2.0 * Mean(3.0, 0.5, 4), Mean(-6.0, 1.0, 4))
+
     def test_freedom_of_deviations(self):
         for count in (3, 12):
             self.assertAlmostEqual(deviation_freedom(0.0, count), count - 1)

@@ -34,6 +34,10 @@ class Mean:
     def __neg__(self) -> "Mean":
         return Mean(-self.value, self.error, self.freedom)
 
+    def __rmul__(self, factor: float) -> "Mean":
+        """A number without an error times the mean."""
+        return Mean(factor * self.value, abs(factor) * self.error, self.freedom)
+
     def __sub__(self, other: "Mean") -> "Mean":
         return self + -other
 
@@ -51,6 +55,14 @@ class Mean:
     def text(self, unit: str, scale: float = 1.0, form: str = ".1f") -> str:
         """Value and error times `scale`, in a format, with a unit: `1.2 ± 0.1 mm`."""
         return f"{scale * self.value:{form}} ± {scale * self.error:{form}} {unit}"
+
+    def full_text(self, unit: str, scale: float = 1.0, form: str = ".1f") -> str:
+        """As text, with `reach` where its degrees of freedom make it larger than that of an exact error: `1.2 ± 0.1 mm
+        (95 %: ± 0.4, 2.0 degrees of freedom)`."""
+        words = self.text(unit, scale, form)
+        if not np.isfinite(self.error) or np.isinf(self.freedom):
+            return words
+        return f"{words} (95 %: ± {abs(scale) * self.reach:{form}}, {self.freedom:.1f} degrees of freedom)"
 
 
 def mean_variance(correlation: float, count: int) -> float:
@@ -95,15 +107,19 @@ def turns_mean(values: ArrayLike, least: float = 0.0) -> Mean:
     first order (A. M. Law, Simulation Modeling and Analysis, section 9.5.3): the hold-up of a mill with a feed changes
     over ten turns or more. It is still too small where readings change more slowly than over a tenth of the turns, and
     by up to a quarter too large for few turns that are independent. Of fewer turns, the error is that of block_mean.
-    With `least` it holds for any number of turns, and its degrees of freedom are those of this correlation."""
+    With `least` it holds for any number of turns. Degrees of freedom are deviation_freedom of a correlation that is
+    known. Where the turns show a larger one, which they hardly know, they are one less than the number of independent
+    turns whose mean would have the same variance: of 12 turns with correlations of 0, 0.3, 0.6 and 0.8, `reach` has the
+    mean in 96, 94, 90 and 84 %."""
     values = np.asarray(values, dtype=float)
     count, spread = len(values), values.std()
     if count < 2 or not spread > 0 or (count < CORRELATED and not least > 0):
         return block_mean(values)
-    share = mean_variance(max(neighbour_correlation(values), least), count)
+    found = neighbour_correlation(values)
+    share = mean_variance(max(found, least), count)
+    freedom = max(1 / share - 1, 1.0) if found > least else deviation_freedom(least, count)
     # The deviations are from the values' own mean, which takes its variance from theirs
-    return Mean(float(values.mean()), float(spread * np.sqrt(share / (1 - share))),
-                deviation_freedom(least, count) if least > 0 else count - 1)
+    return Mean(float(values.mean()), float(spread * np.sqrt(share / (1 - share))), freedom)
 
 
 def series_mean(values: ArrayLike, blocks: int = BLOCKS) -> tuple[np.ndarray, np.ndarray]:
@@ -135,6 +151,12 @@ class Reading:
     error: np.ndarray
     blocks: int
     failed: int
+
+
+def of_reading(reading: Reading, place: int = 0) -> Mean:
+    """A number of a Reading, or the one at `place` of its array, as a Mean."""
+    value, error = (np.atleast_1d(part)[place] for part in (reading.value, reading.error))
+    return Mean(float(value), float(error), reading.blocks - 1)
 
 
 def with_error(reading: Callable[[SolidsMap], ArrayLike], maps: Sequence[SolidsMap], blocks: int = 8) -> Reading:
