@@ -213,6 +213,15 @@ class SteadyHoldUps(unittest.TestCase):
         flow = replace(self.one(65e-6), discharge=Mean(65e-6, 3e-6, 7))
         self.assertAlmostEqual(at_feed(flow, few).whole.freedom, 7)
 
+    def test_trials_of_few_turns_must_differ_by_students_factor(self):
+        # 20 ml/s apart, with an error of 5: four errors, of which two turns each need 4.3
+        def pair(freedom):
+            return tuple(replace(one, discharge=Mean(value, 5e-6 / np.sqrt(2), freedom))
+                         for one, value in zip(self.TRIALS, (6e-5, 4e-5) if self.TRIALS[0].volume
+                                               > self.TRIALS[1].volume else (4e-5, 6e-5)))
+        self.assertIsNone(at_feed(self.one(59e-6), pair(1)))
+        self.assertIsNotNone(at_feed(self.one(59e-6), pair(5)))
+
     def test_need_both_trials_of_their_mill_and_more_discharge_of_more_slurry(self):
         for trials in ((), self.TRIALS[:1], tuple(replace(one, kind=Kind(60, True)) for one in self.TRIALS),
                        (trial(5e-3, 4e-5), trial(3e-3, 4e-5)), (trial(5e-3, 42e-6), trial(3e-3, 4e-5))):
@@ -302,6 +311,14 @@ class Table(unittest.TestCase):
         self.assertNotIn("without balls: hold-up", text)  # a single feed
         self.assertRegex(text, r"coarse/Beetstra_75_65_high: hold-up over the late turns \+0\.10 ± 0\.\d\d % from "
                          "Beetstra_75_65's")
+
+    def test_errors_of_few_degrees_of_freedom_say_so(self):
+        base, high = (replace(held(name, 65e-6, volume, law=None), whole=Mean(1.1 * volume, 1e-5, 4))
+                      for name, volume in (("fluid_75_65", 4e-3), ("fluid_75_65_high", 4.04e-3)))
+        lines = list(study.lines_of([base, high]))
+        self.assertIn("4.400 ± 0.010 (4)", lines[1])
+        self.assertRegex(lines[-1], r"\+1\.00 ± 0\.32 %, 95 %: ± 0\.74, from fluid_75_65's")
+        self.assertEqual(next(study.rows_of([base]))["hold-up, l, freedom"], 4)
 
     def test_a_high_start_is_compared_with_a_low_one(self):
         flows = [held("fluid_75_65_low", 65e-6, 4e-3, law=None), held("fluid_75_65_high", 65e-6, 4.04e-3, law=None)]

@@ -141,9 +141,9 @@ def models(mill: Mill) -> dict[str, Callable[[float], float]]:
 
 
 def columns_of(key: str, mean: Mean) -> list[tuple[str, float]]:
-    """(column, number) of one of the readings of a run and its error."""
+    """(column, number) of one of the readings of a run, its error, and the error's degrees of freedom."""
     unit = UNITS.get(key, "W")
-    return [(f"{key}_{unit}", mean.value), (f"{key}_error_{unit}", mean.error)]
+    return [(f"{key}_{unit}", mean.value), (f"{key}_error_{unit}", mean.error), (f"{key}_freedom", mean.freedom)]
 
 
 def rows_of(study: Study):
@@ -219,7 +219,7 @@ def relative_power(study: Study) -> list[tuple[float, Mean]]:
         drive = run.numbers.quantities["drive_power"]
         if run.way == "direct" and np.isfinite(drive.value):
             ratio = drive.value / dry.value
-            found.append((run.fill, Mean(ratio, np.hypot(drive.error, ratio * dry.error) / dry.value)))
+            found.append((run.fill, 1 / dry.value * drive + Mean(0.0, ratio * dry.error / dry.value, dry.freedom)))
     return found
 
 

@@ -229,12 +229,11 @@ def expected_volume(feed: float, trials: Sequence[Trial]) -> float:
 
 def trials_of(one: Held, trials: Sequence[Trial]) -> tuple[Trial, Trial] | None:
     """The two trials of a flow's kind, which are on coarse cells, the one with less slurry first. None without them, or
-    if they do not show, by two standard errors, that more slurry discharges more."""
+    if they do not show, with 95 % confidence (Mean.sign), that more slurry discharges more."""
     pair = sorted((trial for trial in trials if trial.kind == one.kind), key=lambda trial: trial.volume)
     if len(pair) != 2:
         return None
-    gain = pair[1].discharge - pair[0].discharge
-    return (pair[0], pair[1]) if gain.value > 2 * gain.error else None
+    return (pair[0], pair[1]) if (pair[1].discharge - pair[0].discharge).sign > 0 else None
 
 
 def relaxation(one: Held, trials: Sequence[Trial]) -> float | None:

@@ -82,7 +82,7 @@ def model_holdups(mill: Mill, feed: float) -> dict[str, float]:
 
 
 def rows_of(found: Sequence[Held]) -> Iterator[Row]:
-    """Rows of the table: column -> text or number."""
+    """Rows of the table: column -> text or number; errors and their degrees of freedom after each mean."""
     for one in found:
         row: Row = {"mesh": one.mesh, "flow": one.name, "cells": one.case.flow.mesh.cells,
                     "feed, ml/s": 1e6 * one.feed}
@@ -91,20 +91,26 @@ def rows_of(found: Sequence[Held]) -> Iterator[Row]:
         if one.steady:
             readings += [(STEADY, one.steady.whole, 1e3), (STEADY_IN_FRONT, one.steady.chamber, 1e3)]
         for name, mean, scale in readings:
-            row |= mean_columns(name, mean, scale)
+            row |= mean_columns(name, mean, scale) | {f"{name}, freedom": mean.freedom}
         for name, held in (model_holdups(one.mill, one.feed) if one.case.law else {}).items():
             row[f"{name}, l"] = 1e3 * held
         yield row | {"end, s": one.end, "ended by": one.reason}
 
 
+def number_words(row: Row, name: str) -> str:
+    """A number of a row with its error and, if that is not exact, its degrees of freedom in brackets."""
+    freedom = row.get(f"{name}, freedom", np.inf)
+    return mean_text(row, name, 3) + ("" if np.isinf(freedom) else f" ({freedom:.0f})")
+
+
 def lines_of(found: Sequence[Held]) -> Iterator[str]:
-    """The table as text, then the exponents of each group and of the models, then what other starts and changed mills
-    came to."""
-    names = {"hold-up, l": 17, "discharge, ml/s": 19, "height, mm": 17, STEADY: 17, STEADY_IN_FRONT: 35}
+    """The table as text, with degrees of freedom of the errors in brackets, then the exponents of each group and of the
+    models, then what other starts and changed mills came to."""
+    names = {"hold-up, l": 22, "discharge, ml/s": 24, "height, mm": 22, STEADY: 22, STEADY_IN_FRONT: 35}
     yield (f"{'flow':<36}{'feed, ml/s':>11}" + "".join(name.rjust(width) for name, width in names.items())
            + "  end, s  ended by")
     for row in rows_of(found):
-        numbers = (mean_text(row, name, 3).rjust(width) for name, width in names.items())
+        numbers = (number_words(row, name).rjust(width) for name, width in names.items())
         yield (f"{row['mesh']}/{row['flow']}".ljust(36) + f"{row['feed, ml/s']:11.1f}" + "".join(numbers)
                + f"{row['end, s']:8.1f}  {row['ended by']}")
     yield ""
@@ -156,9 +162,9 @@ def difference_line(one: Held, base: Held) -> str:
     found_of_both = (flow.holdups if both_steady else flow.measured for flow in (one, base))
     ours, theirs = ((both.chamber if one.kind.change else both.whole) for both in found_of_both)
     words = ("" if both_steady else "over the late turns ") + ("in front of the grates " if one.kind.change else "")
-    apart, share = ours - theirs, 100 / theirs.value
-    percent = value_text(share * apart.value, share * apart.error, sign="+")
-    return (f"{one.mesh}/{one.name}: hold-up {words}{percent} % from "
+    apart = 100 / theirs.value * (ours - theirs)
+    known = f", 95 %: ± {apart.reach:.2f}," if apart.freedom < FEW else ""
+    return (f"{one.mesh}/{one.name}: hold-up {words}{value_text(apart.value, apart.error, sign='+')} %{known} from "
             f"{base.name}'s, after {one.end:.1f} s")
 
 
