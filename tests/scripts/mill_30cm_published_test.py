@@ -17,12 +17,13 @@ import h5py
 import numpy as np
 
 from millfoam.files.slurry_file import VoxelMap
+from millfoam.files.solids_file import mean_map
 from millfoam.readings.axial import gaussians
 from millfoam.readings.means import Mean
 from millfoam.run import set_options
 from millstudies.axial_slices import Slices, jackknife, pressure_drop, read_profile, read_slices
-from millstudies.compared_runs import CONFIRMED, CONTRADICTED, NOT_TESTED, UNDECIDED
-from millstudies.run_readings import RunReadings, Surface
+from millstudies.compared_runs import CONFIRMED, CONTRADICTED, NOT_TESTED, UNDECIDED, by_sign
+from millstudies.run_readings import ReynoldsNumbers, RunReadings, Surface
 from millstudies.statements import larger_drop
 from charge_test import RADIUS, below, cell, charge_map
 from slurry_on_maps_test import slurry_map
@@ -142,8 +143,18 @@ class Axis(unittest.TestCase):
         self.assertAlmostEqual(found.distances[0].value, PEAKS[1] - PEAKS[0], delta=1e-3)
         # 116, 120 and 124 mm
         self.assertAlmostEqual(found.distances[0].error, 0.004 / np.sqrt(3), delta=4e-4)
-        self.assertEqual(found.at_ends, 0)
+        self.assertEqual(found.at_ends, (False, False))
         self.assertAlmostEqual(found.humps.rmsd, 0, delta=2e-4)
+
+    def test_a_peak_at_the_end_of_the_fit_has_no_distance(self):
+        slices = self.slices
+        height = np.tile(gaussians(slices.z, BASE, 0.02, 0.09, 0.03, 0.04, 0.34, 0.04), (3, 1))
+        height += 1e-4 * np.random.default_rng(2).standard_normal(height.shape)
+        found = read_profile(replace(slices, height=height), 2, LENGTH)
+        self.assertEqual(found.at_ends, (False, True))
+        self.assertRegex(found.marked_peaks, r"^\d+ 282\*$")
+        self.assertTrue(np.isnan(found.distances[0].value))
+        self.assertFalse(own_statements.is_known(found))
 
     def test_a_slice_that_one_turn_alone_fills_has_no_error(self):
         holdup = self.slices.holdup.copy()
@@ -232,7 +243,8 @@ class Statements(unittest.TestCase):
         series = self.flow().readings.series
         readings = RunReadings("direct_75_20/direct", 0.3, 75, "Beetstra", 20, 5.0, True, 1.036, "fails",
                                Surface(Mean(40, 1, 1), Mean(0.002), 44.0), series, Mean(0.01, 1e-4, 1),
-                               Mean(-0.01, 1e-4, 1), (np.array([100.0, 300.0]), np.array([1.0, 3.0])))
+                               Mean(-0.01, 1e-4, 1), ReynoldsNumbers(np.array([100.0, 400.0] * 2),
+                                                                     np.array([1.0, 3.0] * 2), np.repeat([0, 1], 2)))
         found = list(own_statements.felt({"direct_75_20": SimpleNamespace(readings=readings)}))
         self.assertEqual([one.verdict for one in found], [CONFIRMED, CONTRADICTED, CONFIRMED])
         self.assertTrue(all("not steady by the report: direct_75_20/direct" in one.figure for one in found))
@@ -298,21 +310,35 @@ class Statements(unittest.TestCase):
     def test_maps_of_the_balls_are_compared_with_the_dry_run(self):
         dry = {"dry_75": "dry", "dry_seed": "seed"}
         flows = {"direct_75_20": SimpleNamespace(case="felt")}
-        apart = {"felt": 0.03, "seed": 0.01}
+        apart = {"felt": Mean(0.03, 0.001, 2), "seed": Mean(0.01, 0.001, 2), "near": Mean(0.025, 0.002, 2)}
         with mock.patch.object(own_statements, "charge_apart", lambda one, _: (apart[one], "far")), \
                 mock.patch.object(own_statements, "noise", lambda _: 0.002):
             found = list(own_statements.charges(flows, dry))
             missing = list(own_statements.charges(flows, {"dry_seed": "seed"}))
+            near = list(own_statements.charges({"direct_75_20": SimpleNamespace(case="near")}, dry))
         self.assertEqual([one.verdict for one in found], [CONTRADICTED, CONFIRMED])
+        self.assertEqual(near[0].verdict, UNDECIDED)
         self.assertIn("far (limit 2 % of solidity; halves of dry_75 differ by 0.20 %)", found[0].figure)
         self.assertEqual([one.figure for one in missing], ["not complete: dry_75"] * 2)
+
+    def test_maps_of_charges_have_the_error_of_their_turns(self):
+        def case(*tilts):
+            maps = [charge_map(below(lambda x, tilt=tilt: -np.tan(np.radians(tilt)) * x), cell) for tilt in tilts]
+            for number, one in enumerate(maps):
+                one.begin, one.end = number * TURN, (number + 1) * TURN
+            return SimpleNamespace(charge=mean_map(maps), charge_windows=maps, radius=RADIUS, turn=TURN)
+        found = own_statements.map_difference(case(32, 34, 36), case(30, 30, 30))
+        self.assertAlmostEqual(found.value, own_statements.HARDLY, delta=0.004)
+        self.assertGreater(found.error, 0.002)
+        self.assertEqual((found.freedom, by_sign(Mean(own_statements.HARDLY) - found)), (2, UNDECIDED))
 
     def test_a_charge_is_apart_from_one_that_is_turned(self):
         def case(tilt):
             charge = charge_map(below(lambda x: -np.tan(np.radians(tilt)) * x), cell)
-            return SimpleNamespace(charge=charge, charge_windows=[charge] * 4, radius=RADIUS)
+            return SimpleNamespace(charge=charge, charge_windows=[charge] * 4, radius=RADIUS, turn=TURN)
         apart, words = own_statements.charge_apart(case(30), case(34))
-        self.assertAlmostEqual(apart, own_statements.HARDLY, delta=0.002)
+        self.assertAlmostEqual(apart.value, own_statements.HARDLY, delta=0.002)
+        self.assertAlmostEqual(apart.error, 0, delta=1e-12)
         for end in ("toe", "shoulder"):
             self.assertRegex(words, end + r" by -(3\.[89]|4\.[01])\d ± 0\.00 degrees")
 
@@ -361,6 +387,11 @@ class Tables(unittest.TestCase):
         row = study.cost_row(RUNS["dry_75"], folder)
         self.assertEqual((row["dry run, min"], row["planned charge, min"], row["planned flow, min"]), (2, 1.5, None))
         self.assertEqual((row["memory, GB"], row["planned memory, GB"], row["planned disk, GB"]), (0.3, 0.4, 5))
+
+    def test_columns_have_the_freedom_of_an_error(self):
+        row = study.pair("drop", "Pa", Mean(1.234e-3, 0.056e-3, 2), 1e3)
+        self.assertEqual(row, {"drop, Pa": 1.234, "drop, Pa ±": 0.056, "drop, Pa, freedom": 2})
+        self.assertEqual(list(study.lines_of([row]))[0].split(maxsplit=2)[2], "1.23 ± 0.06 (2)")
 
     def test_cells_have_errors_where_they_are_known(self):
         rows = [{"run": "a", **study.pair("drop", "Pa", Mean(1.234, 0.056))},

@@ -16,11 +16,11 @@ import numpy as np
 from millfoam.files.mill import Mill
 from millfoam.readings import slurry_over_time
 from millfoam.readings.axial import AxialSeries, gaussians
-from millfoam.readings.means import Mean, series_mean
+from millfoam.readings.means import Mean, block_mean, series_mean
 from millstudies import own_mill, statements
 from millstudies.compared_runs import CONFIRMED, CONTRADICTED, NOT_TESTED, UNDECIDED, Runs, height, unsteady
 from millstudies.mill_runs import OTHER_MESH
-from millstudies.run_readings import RunReadings, Surface, surface_line
+from millstudies.run_readings import ReynoldsNumbers, RunReadings, Surface, surface_line
 from slurry_on_maps_test import RADIUS, WALL, slurry_map
 
 Z = np.linspace(0.005, 0.3, 33)
@@ -46,6 +46,11 @@ def run(speed=75, law=None, solids=20, last=5.0, **read):
                        **{"series": series(), **read})
 
 
+def reynolds_by_turn(numbers, slurry, turns=3):
+    """ReynoldsNumbers that are the same in each turn: numbers [n], slurry's volumes [n] (m3)."""
+    return ReynoldsNumbers(np.tile(numbers, turns), np.tile(slurry, turns), np.repeat(np.arange(turns), len(numbers)))
+
+
 def a_slice(law=None, solids=30, last=5.0, **read):
     """A run of the 12 cm mill's slice at half of the critical speed."""
     return RunReadings(f"slice_{law}_{solids}", 0.12, 50, law, solids, last, False, turn(0.12, 50),
@@ -66,6 +71,13 @@ class Flat(unittest.TestCase):
         for tilt, deviation, verdict in ((2, 0.003, CONFIRMED), (12, 0.003, CONTRADICTED), (2, 0.02, CONTRADICTED)):
             self.assertEqual(verdicts_of(statements.flat_without_balls, self.surface(tilt, deviation)),
                              [NOT_TESTED, verdict])
+
+    def test_what_its_error_takes_over_the_limit_is_undecided(self):
+        # Of two turns: 12.7 errors
+        for tilt, deviation in ((Mean(4.0, 0.2, 1), Mean(0.003)), (Mean(-6.0, 0.2, 1), Mean(0.003)),
+                                (Mean(2.0, 0.1, 1), Mean(0.005, 2e-4, 1)), (Mean(2.0, np.nan, 0), Mean(0.003))):
+            one = run(surface=Surface(tilt, deviation))
+            self.assertEqual(verdicts_of(statements.flat_without_balls, one), [NOT_TESTED, UNDECIDED])
 
     def test_a_run_that_is_short_or_missing_is_reported(self):
         short = run(60, last=3.4, surface=Surface(Mean(0), Mean(0)))
@@ -88,6 +100,34 @@ class TwoHumps(unittest.TestCase):
         for apart, verdict in ((0.2, CONFIRMED), (0.12, CONTRADICTED)):
             runs = run(60, series=self.profile(0.1)), run(75, series=self.profile(apart))
             self.assertEqual(verdicts_of(statements.humps_without_balls, *runs), [CONFIRMED, CONFIRMED, verdict])
+
+    def test_their_distances_have_the_error_of_the_turns(self):
+        # The second hump is 0.1 or 0.14 m further on in the mean of the last two turns, and moves by 20 mm in a second
+        def moving(times, apart):
+            return np.array([gaussians(Z, -0.06, 0.01, 0.05, 0.02, 0.01, 0.05 + apart + 0.02 * (time - 3.91), 0.02)
+                             for time in times])
+        slow, fast = (run(speed, series=series(moving(TIMES, apart))) for speed, apart in ((60, 0.1), (75, 0.14)))
+        distance = statements.hump_distance(fast)
+        self.assertAlmostEqual(distance.value, 0.14, delta=5e-3)
+        self.assertGreater(distance.error, 3e-3)
+        self.assertEqual(distance.freedom, 1)
+        self.assertEqual(statements.distance_ratio({60: (statements.hump_distance(slow), True, slow),
+                                                    75: (distance, True, fast)}).verdict, UNDECIDED)
+
+    def test_a_hump_at_the_end_of_the_fit_has_no_distance(self):
+        rising = run(75, series=series(gaussians(Z, -0.06, 0.01, 0.1, 0.02, 0.03, 0.34, 0.04)))
+        self.assertTrue(np.isnan(statements.hump_distance(rising).value))
+        found = statements.distance_ratio({60: (Mean(0.1), True, run(60)), 75: (Mean(np.nan, np.nan), True, rising)})
+        self.assertEqual(found.verdict, UNDECIDED)
+        self.assertIn("no distance: a peak is at the end of the fit", found.figure)
+
+    def test_a_ratio_beside_a_limit_is_seldom_decided_wrongly(self):
+        # Distances of three turns each, whose true ratio is a hundredth beside 1.5 or 2.5
+        random = np.random.default_rng(11)
+        for ratio, wrong in ((1.49, CONFIRMED), (1.51, CONTRADICTED), (2.49, CONTRADICTED), (2.51, CONFIRMED)):
+            found = [statements.about_twice(*(block_mean(random.normal(apart, 0.05 * apart, 3))
+                                              for apart in (0.08, ratio * 0.08))) for _ in range(1000)]
+            self.assertLess(np.mean([one == wrong for one in found]), 0.05)
 
     def test_one_hump_is_not_two_and_leaves_the_distance_open(self):
         runs = run(60, series=self.profile(0.1, (0.0, 0.01))), run(75, series=self.profile(0.2))
@@ -178,14 +218,31 @@ class WithBalls(unittest.TestCase):
     def test_reynolds_numbers_are_weighted_by_slurry(self):
         numbers = np.array([50.0, 400.0])
         for slurry, verdict in (((3.0, 1.0), CONFIRMED), ((1.0, 3.0), CONTRADICTED)):
-            one = run(law="Beetstra", reynolds=(numbers, np.array(slurry)))
+            one = run(law="Beetstra", reynolds=reynolds_by_turn(numbers, slurry))
             self.assertEqual(verdicts_of(statements.reynolds_below, one), [verdict, NOT_TESTED])
-            thick = a_slice("Beetstra", 40, reynolds=(numbers, np.array(slurry)))
+            thick = a_slice("Beetstra", 40, reynolds=reynolds_by_turn(numbers, slurry))
             self.assertEqual(verdicts_of(statements.reynolds_below, thick, of_slice=True), [NOT_TESTED, verdict])
+
+    def test_reynolds_numbers_are_judged_by_diameter_and_by_radius(self):
+        # Limits of 150 and 300; the third is between both in one of the turns
+        for numbers, verdict in (((50, 100), CONFIRMED), ((200, 250), statements.DEPENDS), ((350, 400), CONTRADICTED)):
+            one = run(law="Beetstra", reynolds=reynolds_by_turn(np.array(numbers), (1.0, 1.0)))
+            found = statements.reynolds_below(Runs([one]))[0]
+            self.assertEqual(found.verdict, verdict)
+            self.assertRegex(found.figure, f"by the diameter .*median {numbers[0]}; by the radius .*median "
+                             f"{numbers[0] / 2:.0f}")
+
+    def test_a_share_of_reynolds_numbers_has_its_error_by_turns(self):
+        # More than half is below 150 in one turn of two, and in each of two turns
+        for first, verdict in ((0.45, UNDECIDED), (0.78, CONFIRMED)):
+            shares = np.array([[first, 1 - first], [0.8, 0.2]])
+            one = run(law="Beetstra", reynolds=ReynoldsNumbers(np.tile([50.0, 900.0], 2), shares.ravel(),
+                                                               np.repeat([0, 1], 2)))
+            self.assertEqual(verdicts_of(statements.reynolds_below, one)[0], verdict)
 
     def test_reynolds_numbers_of_slurries_without_a_published_limit_are_not_tested(self):
         for one in (run(law="Beetstra", solids=30), a_slice("Beetstra", 30), a_slice("Beetstra", None)):
-            one.reynolds = np.array([50.0, 400.0]), np.array([3.0, 1.0])
+            one.reynolds = reynolds_by_turn(np.array([50.0, 400.0]), (3.0, 1.0))
             found = statements.reynolds_below(Runs([one]))
             self.assertEqual({each.verdict for each in found}, {NOT_TESTED})
             self.assertRegex(found[-1].figure,

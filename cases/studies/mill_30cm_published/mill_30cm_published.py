@@ -17,12 +17,12 @@ import numpy as np
 from millfoam.files.data_files import read_json, write_csv
 from millfoam.files.mill_case import MillCase
 from millfoam.readings.charge import charge_with_errors
-from millfoam.readings.means import Mean
+from millfoam.readings.means import Mean, of_reading
 from millfoam.readings.slurry_conservation import AS_ASKED, CONSERVED
 from millfoam.report.build import compare_cases
 from millstudies.axial_slices import PRESSURES, Profile
 from millstudies.compared_runs import NOT_TESTED, SLICE, Verdict
-from millstudies.mean_columns import Row, mean_columns, value_text
+from millstudies.mean_columns import Row, freedom_columns, freedom_text
 from millstudies.statements import verdicts
 
 import drawings
@@ -44,23 +44,22 @@ def charge_row(run: Run, case: MillCase) -> Row:
     found = charge_with_errors(case.charge_windows, case.radius)
 
     def mean(name: str, k: int = 0) -> Mean:
-        return Mean(float(np.atleast_1d(found[name].value)[k]), float(np.atleast_1d(found[name].error)[k]))
+        return of_reading(found[name], k)
     return {"run": run.name, "speed, %": run.speed, "steady from, s": case.result("steady_from_s"),
-            **mean_columns("power, W", Mean(case.result("power_W"), case.result("power_error_W"))),
-            **mean_columns("centre of circulation x, mm", mean("centre", 0), 1e3),
-            **mean_columns("centre of circulation y, mm", mean("centre", 1), 1e3),
-            **mean_columns("toe, deg", mean("ends", 0)), **mean_columns("shoulder, deg", mean("ends", 1)),
-            **mean_columns("RMSD of the cubic, m/s", mean("tangential_rmsd")),
-            **mean_columns("RMSD of the logistic, mm", mean("surface_rmsd"), 1e3)}
+            **freedom_columns("power, W", Mean(case.result("power_W"), case.result("power_error_W"))),
+            **freedom_columns("centre of circulation x, mm", mean("centre", 0), 1e3),
+            **freedom_columns("centre of circulation y, mm", mean("centre", 1), 1e3),
+            **freedom_columns("toe, deg", mean("ends", 0)), **freedom_columns("shoulder, deg", mean("ends", 1)),
+            **freedom_columns("RMSD of the cubic, m/s", mean("tangential_rmsd")),
+            **freedom_columns("RMSD of the logistic, mm", mean("surface_rmsd"), 1e3)}
 
 
 def profile_columns(words: str, profile: Profile) -> Row:
     """A profile's columns of the table, after these words."""
-    return {**mean_columns(f"{words}amplitude, mm", profile.amplitude, 1e3),
-            f"{words}peaks, mm": " ".join(f"{1e3 * one:.0f}" for one in profile.humps.places),
-            f"{words}peaks at ends": profile.at_ends,
-            **mean_columns(f"{words}first distance, mm", profile.distances[0], 1e3),
-            **mean_columns(f"{words}last distance, mm", profile.distances[-1], 1e3),
+    return {**freedom_columns(f"{words}amplitude, mm", profile.amplitude, 1e3),
+            f"{words}peaks (*: end of fit), mm": profile.marked_peaks,
+            **freedom_columns(f"{words}first distance, mm", profile.distances[0], 1e3),
+            **freedom_columns(f"{words}last distance, mm", profile.distances[-1], 1e3),
             f"{words}RMSD of the fit, mm": 1e3 * profile.humps.rmsd}
 
 
@@ -72,16 +71,16 @@ def flow_row(flow: Flow) -> Row:
     return {"run": run.name, "speed, %": run.speed, "solids, %": run.solids, "law": run.law or "–",
             "turns": flow.turns, "steady": readings.steady, "hold-up at first, l": 1e3 * first,
             "hold-up at last, l": 1e3 * last, "feed, ml/s": 1e6 * (flow.case.feed or 0),
-            **mean_columns("discharge, ml/s", flow.discharge, 1e6), **mean_columns("net, ml/s", flow.net, 1e6),
-            **mean_columns("height, mm", flow.height, 1e3),
-            **mean_columns("in front of the grates: height, mm", flow.chamber_height, 1e3),
+            **freedom_columns("discharge, ml/s", flow.discharge, 1e6), **freedom_columns("net, ml/s", flow.net, 1e6),
+            **freedom_columns("height, mm", flow.height, 1e3),
+            **freedom_columns("in front of the grates: height, mm", flow.chamber_height, 1e3),
             **profile_columns("", flow.profile), **profile_columns("in front of the grates: ", flow.chamber),
-            **mean_columns("velocity at the toe, mm/s", readings.toe or unknown, 1e3),
-            **mean_columns("velocity at the shoulder, mm/s", readings.shoulder or unknown, 1e3),
-            **mean_columns("velocity at the shoulder's top, mm/s", flow.top_velocity, 1e3),
+            **freedom_columns("velocity at the toe, mm/s", readings.toe or unknown, 1e3),
+            **freedom_columns("velocity at the shoulder, mm/s", readings.shoulder or unknown, 1e3),
+            **freedom_columns("velocity at the shoulder's top, mm/s", flow.top_velocity, 1e3),
             **{key: value for name, words in PRESSURES.items()
-               for key, value in mean_columns(f"drop of {words}, Pa", flow.drops[name]).items()},
-            **mean_columns("slurry at the centre of circulation, %", flow.centre_share, 100),
+               for key, value in freedom_columns(f"drop of {words}, Pa", flow.drops[name]).items()},
+            **freedom_columns("slurry at the centre of circulation, %", flow.centre_share, 100),
             "force over weight": flow.case.load[0] if flow.case.load else np.nan,
             "missing over hold-up": flow.missing, "error of the feed": flow.feed_error}
 
@@ -120,7 +119,7 @@ def cost_row(run: Run, root: Path) -> Row:
 
 
 def cell(row: Row, key: str) -> str:
-    """A row's entry in the printed table, with its error."""
+    """A row's entry in the printed table, with its error and, if that is not exact, its degrees of freedom."""
     value = row.get(key)
     if value is None or value == "" or isinstance(value, float) and np.isnan(value):
         return "–"
@@ -129,14 +128,15 @@ def cell(row: Row, key: str) -> str:
     error = row.get(f"{key} ±", np.nan)
     if np.isnan(error):
         return f"{value:.4g}"
-    return value_text(value, error, 2 if abs(value) < 1000 else 0)
+    return freedom_text(row, key, 2 if abs(value) < 1000 else 0)
 
 
 def lines_of(rows: Sequence[Row]) -> Iterator[str]:
-    """The table as text: a line for each quantity and a column for each run, in blocks of six runs."""
+    """The table as text: a line for each quantity and a column for each run, in blocks of six runs. In
+    brackets: degrees of freedom of the errors."""
     for begin in range(0, len(rows), 6):
         block = rows[begin:begin + 6]
-        for key in (one for row in block[:1] for one in row if not one.endswith(" ±")):
+        for key in (one for row in block[:1] for one in row if not one.endswith((" ±", ", freedom"))):
             yield key.ljust(46) + "".join(cell(row, key).rjust(21) for row in block)
         yield ""
 

@@ -7,14 +7,15 @@ from collections.abc import Callable, Iterator
 import numpy as np
 
 from millfoam.files.mill_case import MillCase
-from millfoam.files.solids_file import mean_map
+from millfoam.files.solids_file import SolidsMap, mean_map
+from millfoam.readings.batches import whole_turns
 from millfoam.readings.compare import difference
 from millfoam.readings.free_surface import toe_and_shoulder
-from millfoam.readings.means import Mean, with_error
-from millstudies.axial_slices import PRESSURES, Profile
+from millfoam.readings.means import Mean, of_reading, with_error
+from millstudies.axial_slices import PRESSURES, Profile, jackknife
 from millstudies.compared_runs import CONFIRMED, CONTRADICTED, NOT_TESTED, UNDECIDED, Runs, Verdict, by_sign, judged
-from millstudies.statements import (TWICE, circulation, larger_drop, maxima, millimetres, reynolds_below,
-                                    surface_follows)
+from millstudies.statements import (about_twice, circulation, larger_drop, maxima, millimetres, ratio_words,
+                                    reynolds_below, surface_follows)
 
 from flow_numbers import Flow
 
@@ -55,6 +56,11 @@ def has_two(profile: Profile) -> str:
     return CONFIRMED if counts == {2} else CONTRADICTED
 
 
+def apart_words(distance: Mean) -> str:
+    """How far the first two peaks are apart (m), in words."""
+    return f"{distance.full_text('mm', 1e3)} apart" if np.isfinite(distance.value) else "their distance is not known"
+
+
 def humps(flows: Flows, which: str, where: str) -> Iterator[Verdict]:
     """Two humps of a Profile of the flows, by its name in Flow, and twice as far apart at 75 % speed."""
     def two(flow: Flow) -> tuple[str, str]:
@@ -62,19 +68,19 @@ def humps(flows: Flows, which: str, where: str) -> Iterator[Verdict]:
         seen = clear_maxima(profile)
         return has_two(profile), (
             f"{f'maxima at {millimetres(seen)} mm' if len(seen) else 'no maximum'} between the ends; two Gaussians at "
-            f"{millimetres(profile.humps.places)} mm ({profile.at_ends} at the profile's ends), "
-            f"{profile.distances[0].text('mm', 1e3)} apart, RMSD {1e3 * profile.humps.rmsd:.1f} mm, amplitude "
+            f"{profile.marked_peaks} mm (*: at the end of the fit), "
+            f"{apart_words(profile.distances[0])}, RMSD {1e3 * profile.humps.rmsd:.1f} mm, amplitude "
             f"{profile.amplitude.text('mm', 1e3)}")
 
     def twice(slow: Flow, fast: Flow) -> tuple[str, str]:
         ends = [getattr(one, which) for one in (slow, fast)]
-        ratio = ends[1].distances[0].value / ends[0].distances[0].value
-        figure = f"{ratio:.2f} times"
+        less, more = (one.distances[0] for one in ends)
+        figure = ratio_words(less, more)
         if any(has_two(one) != CONFIRMED for one in ends):
             return UNDECIDED, figure + "; not both profiles have two maxima"
         if not all(map(is_known, ends)):
             return UNDECIDED, figure + "; the peaks move from turn to turn, or the fit is poor"
-        return CONFIRMED if TWICE[0] <= ratio <= TWICE[1] else CONTRADICTED, figure
+        return about_twice(less, more), figure
 
     for solids in (20, 30, 40):
         for speed in (60, 75):
@@ -117,16 +123,36 @@ def felt(flows: Flows) -> Iterator[Verdict]:
             yield from (one for one in statement(Runs([readings])) if one.runs == readings.name)
 
 
-def charge_apart(one: MillCase, other: MillCase) -> tuple[float, str]:
-    """Difference of the maps of solidity of two charges (compare.Difference), and in words, with toe and shoulder."""
-    apart = difference(one.charge, other.charge)
+def turns_of(case: MillCase) -> list[SolidsMap]:
+    """SolidsMap of each of the whole turns, two at least, into which the windows of a charge are divided."""
+    windows = case.charge_windows
+    turns = max(whole_turns(windows[-1].end - windows[0].begin, case.turn), 2)
+    return [mean_map([windows[number] for number in part]) for part in np.array_split(np.arange(len(windows)), turns)
+            if len(part)]
+
+
+def map_difference(one: MillCase, other: MillCase) -> Mean:
+    """Difference of the maps of solidity of two charges (compare.Difference), with the error of the jackknife over the
+    turns of each."""
+    found = Mean(difference(one.charge, other.charge).solidity)
+    for case, rest in ((one, other), (other, one)):
+        turns = turns_of(case)
+        _, error = jackknife(lambda some, turns=turns, rest=rest: np.array(
+            difference(mean_map([turns[number] for number in some]), rest.charge).solidity), len(turns))
+        found += Mean(0.0, float(error), len(turns) - 1)
+    return found
+
+
+def charge_apart(one: MillCase, other: MillCase) -> tuple[Mean, str]:
+    """Difference of the maps of solidity of two charges (map_difference), and in words, with toe and shoulder."""
+    apart, solidity = difference(one.charge, other.charge), map_difference(one, other)
     ends = [with_error(lambda part, case=case: toe_and_shoulder(part, case.radius), case.charge_windows)
             for case in (one, other)]
-    toe, shoulder = (Mean(ends[0].value[k], ends[0].error[k]) - Mean(ends[1].value[k], ends[1].error[k])
-                     for k in (0, 1))
-    return apart.solidity, (f"solidity differs by {100 * apart.solidity:.2f} % in the mean, velocities by "
-                            f"{100 * apart.velocity_x:.1f} and {100 * apart.velocity_y:.1f} % of the largest, toe by "
-                            f"{toe.text('degrees', 1, '.2f')}, shoulder by {shoulder.text('degrees', 1, '.2f')}")
+    toe, shoulder = (of_reading(ends[0], k) - of_reading(ends[1], k) for k in (0, 1))
+    return solidity, (f"solidity differs by {solidity.full_text('%', 100, '.2f')} in the mean, velocities by "
+                      f"{100 * apart.velocity_x:.1f} and {100 * apart.velocity_y:.1f} % of the largest, toe by "
+                      f"{toe.full_text('degrees', 1, '.2f')}, shoulder by "
+                      f"{shoulder.full_text('degrees', 1, '.2f')}")
 
 
 def noise(case: MillCase) -> float:
@@ -145,7 +171,7 @@ def charges(flows: Flows, dry: Cases) -> Iterator[Verdict]:
             yield Verdict(statement, f"{name}, dry_75", NOT_TESTED, "not complete: " + ", ".join(gone))
             continue
         apart, words = charge_apart({**dry, **wet}[name], dry["dry_75"])
-        yield Verdict(statement, f"{name}, dry_75", CONFIRMED if apart <= HARDLY else CONTRADICTED,
+        yield Verdict(statement, f"{name}, dry_75", by_sign(Mean(HARDLY) - apart),
                       f"{words} (limit {100 * HARDLY:g} % of solidity; halves of dry_75 differ by "
                       f"{100 * noise(dry['dry_75']):.2f} %)")
 

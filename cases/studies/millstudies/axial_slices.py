@@ -8,7 +8,7 @@ import h5py
 import numpy as np
 
 from millfoam.files.mill_case import MillCase
-from millfoam.readings.axial import Humps, fit_gaussians, humps_at_ends
+from millfoam.readings.axial import Humps, are_at_ends, fit_gaussians, known_distances
 from millfoam.readings.batches import whole_turns
 from millfoam.readings.means import Mean, block_mean
 
@@ -48,15 +48,24 @@ class Slices:
 class Profile:
     """What is read of a profile: z (m) and mean height (m) [n] of its slices; error (m) of a slice's height, the root
     mean square of the standard errors over the turns, NaN for a single turn; fit of Gaussians; distances (m) of
-    successive peaks and amplitude (m), highest minus lowest slice, with errors over the turns; number of peaks at the
-    profile's ends."""
+    successive peaks and amplitude (m), highest minus lowest slice, with errors over the turns. Distances are NaN where
+    one of the peaks is at an end of the profile, with all turns or without one of them: it may be anywhere beyond."""
     z: np.ndarray
     height: np.ndarray
     error: float
     humps: Humps
     distances: list[Mean]
     amplitude: Mean
-    at_ends: int
+
+    @property
+    def at_ends(self) -> tuple[bool, ...]:
+        """Whether each of its peaks is at an end of it (axial.are_at_ends)."""
+        return are_at_ends(self.humps, self.z)
+
+    @property
+    def marked_peaks(self) -> str:
+        """Places of its peaks in mm, with a * for those at an end of it."""
+        return " ".join(f"{1e3 * place:.0f}{'*' * end}" for place, end in zip(self.humps.places, self.at_ends))
 
 
 def turn_windows(case: MillCase, begins: np.ndarray, ends: np.ndarray) -> list[np.ndarray]:
@@ -137,15 +146,17 @@ def read_profile(slices: Slices, count: int, length: float = np.inf) -> Profile:
 
     def read(turns: np.ndarray) -> np.ndarray:
         height = slices.profile(turns)[chosen]
-        return np.array([np.ptp(height), *fit_gaussians(z, height, count).distances])
+        return np.array([np.ptp(height), *known_distances(fit_gaussians(z, height, count), z)])
 
     turns = len(slices.holdup)
     values, errors = jackknife(read, turns)
+    if turns > 1:
+        values = np.where(np.isfinite(errors), values, np.nan)
     amplitude, *distances = (Mean(float(value), float(error), turns - 1) for value, error in zip(values, errors))
     height = slices.profile()[chosen]
     humps = fit_gaussians(z, height, count)
     error = float(np.sqrt(slices.height[:, chosen].var(axis=0, ddof=1).mean() / turns)) if turns > 1 else np.nan
-    return Profile(z, height, error, humps, distances, amplitude, humps_at_ends(humps, z))
+    return Profile(z, height, error, humps, distances, amplitude)
 
 
 def pressure_drop(slices: Slices, name: str, length: float) -> Mean:

@@ -9,8 +9,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from millfoam.readings.batches import mean_over_turns
-from millfoam.readings.means import mean_of_series
+from millfoam.readings.batches import batch_means, mean_over_turns, whole_turns
+from millfoam.readings.means import BLOCKS, mean_of_series
 from millfoam.report.steadiness import halves
 
 LATEST = 4.5  # flow time that a run of the 30 cm mill must have reached, s
@@ -30,6 +30,12 @@ class Verdict:
 def by_sign(difference):
     """The verdict on a statement that a Mean is positive."""
     return {1: CONFIRMED, -1: CONTRADICTED, 0: UNDECIDED}[difference.sign]
+
+
+def all_positive(*differences):
+    """The verdict on a statement that all of some Means are positive: one that is negative contradicts it."""
+    signs = [difference.sign for difference in differences]
+    return CONTRADICTED if -1 in signs else CONFIRMED if all(sign == 1 for sign in signs) else UNDECIDED
 
 
 def mill_of(run):
@@ -138,6 +144,18 @@ def height_over_time(run):
     series = run.series
     known = np.where(series.holdup > 0, series.height, 0.0)
     return (known * series.holdup).sum(axis=1) / series.holdup.sum(axis=1)
+
+
+def by_turn(run, values):
+    """Means [turns, ...] of values [times, ...] at the times of a run's series over its last whole turns if two fit,
+    otherwise over fifths of its time."""
+    times, values = run.series.times, np.asarray(values, dtype=float)
+    turns = whole_turns(times[-1] - times[0], run.turn)
+    if turns < 2:
+        return np.array([part.mean(axis=0) for part in np.array_split(values, min(BLOCKS, len(values)))])
+    columns = values.reshape(len(values), -1).T
+    means = [batch_means(times, column, times[-1] - turns * run.turn, run.turn, turns) for column in columns]
+    return np.stack(means, axis=1).reshape(turns, *values.shape[1:])
 
 
 def over_turns(run, values):

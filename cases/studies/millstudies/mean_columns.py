@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Means with their errors in the tables of studies: two columns of a CSV file, one of a printed table."""
+"""Means with their errors in the tables of studies: two or three columns of a CSV file, one of a printed table."""
 from typing import Any
+
+import numpy as np
 
 from millfoam.readings.means import Mean
 
@@ -22,3 +24,14 @@ def mean_text(row: Row, column: str, digits: int = 2) -> str:
     if row.get(column) is None or row[column] != row[column]:
         return "–"
     return value_text(row[column], row[f"{column} ±"], digits)
+
+
+def freedom_columns(column: str, mean: Mean, scale: float = 1.0) -> Row:
+    """mean_columns, and `NAME, UNIT, freedom`: the error's degrees of freedom, infinite where it is exact."""
+    return mean_columns(column, mean, scale) | {f"{column}, freedom": mean.freedom}
+
+
+def freedom_text(row: Row, column: str, digits: int = 2) -> str:
+    """mean_text, with the error's degrees of freedom in brackets where it is not exact: `1.20 ± 0.10 (4)`."""
+    freedom = row.get(f"{column}, freedom", np.inf)
+    return mean_text(row, column, digits) + ("" if np.isinf(freedom) else f" ({freedom:.0f})")

@@ -7,11 +7,13 @@ import numpy as np
 
 from millfoam.readings import slurry_on_maps
 from millfoam.readings.axial import AxialSeries
+from millfoam.readings.batches import whole_turns
 from millfoam.readings.free_surface import free_surface
 from millfoam.readings.means import Mean, block_mean
 from millfoam.readings.slurry_in_cells import read_frame, reynolds
 from millfoam.readings.slurry_over_time import read_series, ring_depth, slurry_blocks, slurry_way
 
+OFF = 0.01  # of a turn: how much written times may be off their interval
 # Of the published slurries: density, kg/m3 -> solids, % by mass
 CONCENTRATIONS = {1148: 20, 1239: 30, 1346: 40, 1474: 50, 1628: 60}
 
@@ -27,6 +29,28 @@ class Surface:
 
 
 @dataclass
+class ReynoldsNumbers:
+    """Particle Reynolds numbers by the balls' diameter, of all cells at the averaged written times: values [n]; the
+    slurry's volume at each, volumes [n] (m3); part of the time to which each belongs, parts [n]: a whole turn of the
+    mill, 0 or more, or -1 before the first of them."""
+    values: np.ndarray
+    volumes: np.ndarray
+    parts: np.ndarray
+
+    def share_below(self, limit):
+        """Share of the slurry at numbers below a limit, mean over the parts with its error (Mean)."""
+        return block_mean([np.average(self.values[part] < limit, weights=self.volumes[part])
+                           for part in (self.parts == number for number in range(self.parts.max() + 1)) if part.any()])
+
+    @property
+    def median(self):
+        """The number up to which half of the slurry lies, at all times."""
+        order = np.argsort(self.values)
+        below = np.cumsum(self.volumes[order])
+        return self.values[order][np.searchsorted(below, below[-1] / 2)]
+
+
+@dataclass
 class RunReadings:
     """A run: name, with its parent folder's; mill's diameter (m); speed (% of critical); law of the drag, None without
     balls; slurry's solids (% by mass, None for a slurry that is not published); last flow time (s); whether the mill
@@ -34,8 +58,8 @@ class RunReadings:
     not made.
 
     Its readings, None where they failed: surface; series, AxialSeries of the averaged time; toe and shoulder, velocity
-    along the axis of the slurry's halves there (m/s, to the discharge positive); reynolds, numbers and the slurry's
-    volume at each (m3); failures, sentences of what could not be read."""
+    along the axis of the slurry's halves there (m/s, to the discharge positive); reynolds,
+    ReynoldsNumbers; failures, sentences of what could not be read."""
     name: str
     diameter: float
     speed: int
@@ -49,7 +73,7 @@ class RunReadings:
     series: AxialSeries = None
     toe: Mean = None
     shoulder: Mean = None
-    reynolds: tuple = None
+    reynolds: ReynoldsNumbers = None
     failures: list = field(default_factory=list)
 
 
@@ -100,11 +124,18 @@ def read_maps(case, found):
 
 
 def read_reynolds(case):
-    """Particle Reynolds numbers of all cells at the averaged written times, and the slurry's volume at each (m3)."""
+    """ReynoldsNumbers of a MillCase: parts are the last whole turns of the averages if two fit, and otherwise their
+    written times."""
     fluid = case.mill.slurry("density_kg_m3"), case.mill.slurry("plastic_viscosity_Pa_s")
-    pairs = [reynolds(read_frame(case.flow, *frame), *fluid)
-             for frame in case.flow.frames if frame[0] >= case.begin - 1e-9]
-    return tuple(np.concatenate(part) for part in zip(*pairs))
+    frames = [frame for frame in case.flow.frames if frame[0] >= case.begin - 1e-9]
+    if not frames:
+        raise RuntimeError(f"no time from {case.begin:g} s on was written")
+    turns = whole_turns(case.last - case.begin, case.turn)
+    parts = (range(len(frames)) if turns < 2 else  # the first moment of a turn belongs to the one before
+             [max(int(np.ceil((time - case.last) / case.turn - OFF)) + turns - 1, -1) for time, _ in frames])
+    pairs = [reynolds(read_frame(case.flow, *frame), *fluid) for frame in frames]
+    return ReynoldsNumbers(*(np.concatenate(part) for part in zip(*pairs)),
+                           np.repeat(parts, [len(values) for values, _ in pairs]))
 
 
 def read_run(case):

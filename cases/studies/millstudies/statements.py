@@ -1,25 +1,27 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Statements about slurry in mills (M. Malahe, MSc thesis, University of Cape Town, 2012) compared with runs of the 30
 cm mill. Statements that do not concern the axis are also compared with the 12 cm mill's slice. Each gives verdicts (see
-compared_runs) with their numbers. Tilts, numbers of humps and shares are compared with a limit as they are; their
-errors are printed."""
+compared_runs) with their numbers. A number is compared with a limit by the sign of its distance from it, with its error
+over time (Mean.sign)."""
 import numpy as np
 from scipy.signal import find_peaks
 
-from millfoam.readings.axial import fit_gaussians
+from millfoam.readings.axial import fit_gaussians, known_distances
 from millfoam.readings.means import Mean, series_mean
 from millfoam.readings import slurry_over_time
 from millfoam.readings.slurry_over_time import read_series
 from millfoam.report.steadiness import flow_steadiness
 
-from .compared_runs import (CONFIRMED, CONTRADICTED, LARGE, NOT_TESTED, SLICE, UNDECIDED, Runs, Verdict, Which, by_sign,
-                            height, judged, over_turns, unread)
+from .axial_slices import jackknife
+from .compared_runs import (CONFIRMED, CONTRADICTED, LARGE, NOT_TESTED, SLICE, UNDECIDED, Runs, Verdict, Which,
+                            all_positive, by_sign, by_turn, height, judged, over_turns, unread)
 from .run_readings import read_run
 
 # Of a flat surface, at most: degrees; deviation from its line over the mill's diameter
 FLAT_TILT, FLAT_DEVIATION = 5.0, 0.02
 TWICE = (1.5, 2.5)  # what counts as about twice
 SLIGHTLY = 0.03  # of a height, over the mill's diameter
+DEPENDS = "depends on the definition"  # a verdict
 CLEARLY = 1.1  # least ratio of two pressure drops of which one is clearly larger
 # All that is published: solids of the slurry, % by mass -> number that most of it is below
 REYNOLDS = {20: 150, 40: 90}
@@ -34,11 +36,11 @@ def flat_without_balls(runs):
         if not run or not run.surface:
             found.append(Verdict(statement, str(which), NOT_TESTED, unread(run, runs, which)))
             continue
-        tilt, deviation = run.surface.tilt, run.surface.deviation.value
-        flat = abs(tilt.value) <= FLAT_TILT and deviation <= FLAT_DEVIATION * run.diameter
-        figure = (f"tilt {tilt.text('degrees')}, {1e3 * deviation:.1f} mm from a straight line (flat: {FLAT_TILT:g} "
-                  f"degrees, {1e3 * FLAT_DEVIATION * run.diameter:g} mm)")
-        found.append(Verdict(statement, run.name, *judged(CONFIRMED if flat else CONTRADICTED, figure, run)))
+        tilt, deviation, most = run.surface.tilt, run.surface.deviation, FLAT_DEVIATION * run.diameter
+        verdict = all_positive(Mean(FLAT_TILT) - tilt, Mean(FLAT_TILT) + tilt, Mean(most) - deviation)
+        figure = (f"tilt {tilt.full_text('degrees')}, {deviation.full_text('mm', 1e3)} from a straight line (flat: "
+                  f"{FLAT_TILT:g} degrees, {1e3 * most:g} mm)")
+        found.append(Verdict(statement, run.name, *judged(verdict, figure, run)))
     return found
 
 
@@ -61,11 +63,12 @@ def humps_without_balls(runs):
         error = float(np.sqrt(np.mean(errors**2)))
         try:
             fit = fit_gaussians(run.series.z, height, 2)
+            distance = hump_distance(run)
         except RuntimeError as failure:
             found.append(Verdict(statement, run.name, NOT_TESTED, str(failure)))
             continue
         places = maxima(run.series.z, height, error)
-        apart[which.speed] = fit.distances[0], len(places) == 2, run
+        apart[which.speed] = distance, len(places) == 2, run
         seen = f"maxima at {millimetres(places)} mm" if len(places) else "no maximum"
         figure = (f"{seen} between the ends, {millimetres(run.series.z[[0, -1]])} mm; two Gaussians at "
                   f"{millimetres(fit.places)} mm, RMSD {1e3 * fit.rmsd:.1f} mm; error {1e3 * error:.1f} mm")
@@ -74,20 +77,43 @@ def humps_without_balls(runs):
     return found + [distance_ratio(apart)]
 
 
+def hump_distance(run):
+    """Distance (m) of the two Gaussians of a run's profile, with the error of the jackknife over its turns (by_turn);
+    NaN if one of them is at an end of the profile, with all turns or without one. RuntimeError if there is no fit."""
+    heights = by_turn(run, run.series.height)
+
+    def apart(turns):
+        return known_distances(fit_gaussians(run.series.z, heights[turns].mean(axis=0), 2), run.series.z)
+    (value,), (error,) = jackknife(apart, len(heights))
+    return Mean(float(value if np.isfinite(error) else np.nan), float(error), len(heights) - 1)
+
+
+def about_twice(less, more):
+    """The verdict on whether a Mean is TWICE another one, both positive."""
+    return all_positive(more - TWICE[0] * less, TWICE[1] * less - more)
+
+
+def ratio_words(less, more):
+    """Two lengths (Mean, m) and their ratio in words."""
+    if np.isnan(less.value + more.value):
+        return "no distance: a peak is at the end of the fit"
+    return f"{more.full_text('mm', 1e3)} over {less.full_text('mm', 1e3)} = {more.value / less.value:.2f}"
+
+
 def millimetres(lengths):
     return ", ".join(f"{1e3 * length:.0f}" for length in lengths)
 
 
 def distance_ratio(apart):
-    """Verdict on the distances of two Gaussians by speed: speed -> (m, whether the profile has two humps, run)."""
+    """Verdict on the distances of two Gaussians by speed: speed -> (Mean, m; whether the profile has two humps; run).
+    """
     statement, names = "the humps are about twice as far apart at 75 % speed as at 60 %", "fluid_only_60, fluid_only_75"
     gone = [f"the profile of fluid_only_{speed}" for speed in (60, 75) if speed not in apart]
     if gone:
         return Verdict(statement, names, NOT_TESTED, "missing: " + ", ".join(gone))
-    ratio = apart[75][0] / apart[60][0]
     both = apart[60][1] and apart[75][1]
-    verdict = (CONFIRMED if TWICE[0] <= ratio <= TWICE[1] else CONTRADICTED) if both else UNDECIDED
-    figure = f"{1e3 * apart[75][0]:.0f} over {1e3 * apart[60][0]:.0f} mm = {ratio:.2f}" + (
+    verdict = about_twice(apart[60][0], apart[75][0]) if both else UNDECIDED
+    figure = ratio_words(apart[60][0], apart[75][0]) + (
         "" if both else ", of Gaussians; not both profiles have two humps")
     return Verdict(statement, names, *judged(verdict, figure, apart[60][2], apart[75][2]))
 
@@ -147,8 +173,7 @@ def drag_raises(runs):
     with each slurry that there is, and by less with the thickest than with the thinnest."""
     def judge(beetstra, ergun):
         rise = height(ergun) - height(beetstra)
-        slight = abs(rise.value) <= SLIGHTLY * ergun.diameter
-        return by_sign(rise) if slight else CONTRADICTED, f"higher by {rise.text('mm', 1e3, '.2f')}"
+        return all_positive(rise, Mean(SLIGHTLY * ergun.diameter) - rise), f"higher by {rise.text('mm', 1e3, '.2f')}"
 
     higher, shrinks = [], []
     for mill, speed, solids in runs.places():
@@ -179,35 +204,39 @@ def drag_difference_shrinks(runs, four):
 
 def reynolds_below(runs):
     """Particle Reynolds numbers are mostly, for more than half of the slurry in the bed, under a limit that is
-    published for some concentrations."""
-    found = []
+    published for some concentrations. It is not published by which length: by the balls' diameter, or by their radius
+    as in the laws of the same publication that are in half of that number. So both are judged."""
+    statement, found = "particle Reynolds numbers are mostly under {} for {} % slurry", []
     for solids, limit in REYNOLDS.items():
-        statement = f"particle Reynolds numbers are mostly under {limit} for {solids} % slurry"
         for mill, speed in ((LARGE, 75), (SLICE, runs.slice_speeds()[0])):
             tested = [run for run in runs.of(mill) if run.solids == solids]
             for run in tested:
                 if not run.reynolds:
-                    found.append(Verdict(statement, run.name, NOT_TESTED, unread(run, runs, None)))
+                    found.append(Verdict(statement.format(limit, solids), run.name, NOT_TESTED,
+                                         unread(run, runs, None)))
                     continue
-                share = run.reynolds[1][run.reynolds[0] < limit].sum() / run.reynolds[1].sum()
-                middle = median(*run.reynolds)
-                figure = f"{100 * share:.0f} % of the slurry in the bed is under {limit}; median {middle:.0f}"
-                found.append(Verdict(statement, run.name,
-                                     *judged(CONFIRMED if share > 0.5 else CONTRADICTED, figure, run)))
+                verdict, figure = by_both_lengths(run.reynolds, limit)
+                found.append(Verdict(statement.format(limit, solids), run.name, *judged(verdict, figure, run)))
             if not tested:
                 which = Which(speed, "Beetstra", solids, mill)
-                found.append(Verdict(statement, mill, NOT_TESTED, runs.missing(which)))
+                found.append(Verdict(statement.format(limit, solids), mill, NOT_TESTED, runs.missing(which)))
     others = [run for mill in (LARGE, SLICE) for run in runs.of(mill) if run.solids not in REYNOLDS and run.reynolds]
     return found + [Verdict("particle Reynolds numbers are mostly under a limit", run.name, NOT_TESTED,
                             f"none is published for {f'{run.solids} %' if run.solids else 'this'} slurry, for "
-                            f"{' and '.join(map(str, REYNOLDS))} % only; median {median(*run.reynolds):.0f}")
+                            f"{' and '.join(map(str, REYNOLDS))} % only; median {run.reynolds.median:.0f}")
                     for run in others]
 
 
-def median(values, weights):
-    """The value [n] up to which half of the weights [n] lie."""
-    order = np.argsort(values)
-    return values[order][np.searchsorted(np.cumsum(weights[order]), weights.sum() / 2)]
+def by_both_lengths(found, limit):
+    """Verdict on whether most ReynoldsNumbers are below a limit, and the numbers, by the balls' diameter and by their
+    radius; DEPENDS if the two verdicts are not the same."""
+    judgements, words = [], []
+    for length, factor in (("diameter", 1.0), ("radius", 0.5)):
+        share = found.share_below(limit / factor)
+        judgements.append(by_sign(share - Mean(0.5)))
+        words.append(f"by the {length} {judgements[-1]}: {share.full_text('%', 100)} of the slurry in the bed is under "
+                     f"{limit}; median {factor * found.median:.0f}")
+    return judgements[0] if len(set(judgements)) == 1 else DEPENDS, "; ".join(words)
 
 
 def drop(run):

@@ -18,7 +18,7 @@ from millfoam.files.data_files import write_csv
 from millfoam.files.mill import Mill
 from millfoam.readings import models
 from millfoam.readings.means import Mean
-from millstudies.mean_columns import Row, mean_columns, mean_text, value_text
+from millstudies.mean_columns import Row, freedom_columns, freedom_text, value_text
 
 from held_flows import (Held, Stay, Trial, at_feed, by_groups, expected_volume, named, read_all, read_held, read_trial,
                         read_trials, scatter)
@@ -91,16 +91,10 @@ def rows_of(found: Sequence[Held]) -> Iterator[Row]:
         if one.steady:
             readings += [(STEADY, one.steady.whole, 1e3), (STEADY_IN_FRONT, one.steady.chamber, 1e3)]
         for name, mean, scale in readings:
-            row |= mean_columns(name, mean, scale) | {f"{name}, freedom": mean.freedom}
+            row |= freedom_columns(name, mean, scale)
         for name, held in (model_holdups(one.mill, one.feed) if one.case.law else {}).items():
             row[f"{name}, l"] = 1e3 * held
         yield row | {"end, s": one.end, "ended by": one.reason}
-
-
-def number_words(row: Row, name: str) -> str:
-    """A number of a row with its error and, if that is not exact, its degrees of freedom in brackets."""
-    freedom = row.get(f"{name}, freedom", np.inf)
-    return mean_text(row, name, 3) + ("" if np.isinf(freedom) else f" ({freedom:.0f})")
 
 
 def lines_of(found: Sequence[Held]) -> Iterator[str]:
@@ -110,7 +104,7 @@ def lines_of(found: Sequence[Held]) -> Iterator[str]:
     yield (f"{'flow':<36}{'feed, ml/s':>11}" + "".join(name.rjust(width) for name, width in names.items())
            + "  end, s  ended by")
     for row in rows_of(found):
-        numbers = (number_words(row, name).rjust(width) for name, width in names.items())
+        numbers = (freedom_text(row, name, 3).rjust(width) for name, width in names.items())
         yield (f"{row['mesh']}/{row['flow']}".ljust(36) + f"{row['feed, ml/s']:11.1f}" + "".join(numbers)
                + f"{row['end, s']:8.1f}  {row['ended by']}")
     yield ""

@@ -157,10 +157,22 @@ def fit_gaussians(z: ArrayLike, height: ArrayLike, count: int) -> Humps:
     return Humps(places, heights, widths, float(best[1][0]), best[0])
 
 
-def humps_at_ends(humps: Humps, z: np.ndarray) -> int:
-    """Number of Humps at an end of the slices z [n] (m): for these, the profile shows no maximum."""
+def are_at_ends(humps: Humps, z: np.ndarray) -> tuple[bool, ...]:
+    """Whether each of Humps is at an end of the slices z [n] (m): there, the profile shows no maximum, and its place is
+    a bound of the fit."""
     first, last = z[0] + 0.1 * (z[1] - z[0]), z[-1] - 0.1 * (z[-1] - z[-2])
-    return sum(place < first or place > last for place in humps.places)
+    return tuple(place < first or place > last for place in humps.places)
+
+
+def humps_at_ends(humps: Humps, z: np.ndarray) -> int:
+    """Number of Humps that are_at_ends of the slices z [n] (m)."""
+    return sum(are_at_ends(humps, z))
+
+
+def known_distances(humps: Humps, z: np.ndarray) -> tuple[float, ...]:
+    """Distances of Humps (m), NaN of those of which one are_at_ends of the slices z [n] (m)."""
+    bounds = are_at_ends(humps, z)
+    return tuple(np.nan if one or other else apart for apart, one, other in zip(humps.distances, bounds, bounds[1:]))
 
 
 def slice_thickness(z: np.ndarray) -> np.ndarray:
