@@ -17,7 +17,7 @@ from millfoam.files.mill import Mill
 from millfoam.readings import slurry_over_time
 from millfoam.readings.axial import AxialSeries, gaussians
 from millfoam.readings.means import Mean, block_mean, series_mean
-from millstudies import own_mill, statements
+from millstudies import own_mill, run_readings, statements
 from millstudies.compared_runs import CONFIRMED, CONTRADICTED, NOT_TESTED, UNDECIDED, Runs, height, unsteady
 from millstudies.mill_runs import OTHER_MESH
 from millstudies.run_readings import ReynoldsNumbers, RunReadings, Surface, surface_line
@@ -239,6 +239,18 @@ class WithBalls(unittest.TestCase):
             one = run(law="Beetstra", reynolds=ReynoldsNumbers(np.tile([50.0, 900.0], 2), shares.ravel(),
                                                                np.repeat([0, 1], 2)))
             self.assertEqual(verdicts_of(statements.reynolds_below, one)[0], verdict)
+
+    def test_reynolds_numbers_belong_to_the_last_whole_turns(self):
+        def parts_of(last):
+            case = SimpleNamespace(mill=SimpleNamespace(slurry=lambda _: 1.0), begin=0.25, last=last, turn=1.0,
+                                   flow=SimpleNamespace(frames=[(0.25 * k, "") for k in range(int(4 * last) + 1)]))
+            with mock.patch.object(run_readings, "read_frame", lambda flow, time, path: time), \
+                    mock.patch.object(run_readings, "reynolds", lambda time, *fluid: (np.array([time]), np.ones(1))):
+                found = run_readings.read_reynolds(case)
+            np.testing.assert_array_equal(found.values, 0.25 * np.arange(1, 4 * last + 1))
+            return list(found.parts)
+        self.assertEqual(parts_of(2.5), [-1, -1, 0, 0, 0, 0, 1, 1, 1, 1])
+        self.assertEqual(parts_of(1.25), [0, 1, 2, 3, 4])  # less than two turns
 
     def test_reynolds_numbers_of_slurries_without_a_published_limit_are_not_tested(self):
         for one in (run(law="Beetstra", solids=30), a_slice("Beetstra", 30), a_slice("Beetstra", None)):

@@ -9,7 +9,7 @@ from millfoam.readings import slurry_on_maps
 from millfoam.readings.axial import AxialSeries
 from millfoam.readings.batches import whole_turns
 from millfoam.readings.free_surface import free_surface
-from millfoam.readings.means import Mean, block_mean
+from millfoam.readings.means import BLOCKS, Mean, block_mean
 from millfoam.readings.slurry_in_cells import read_frame, reynolds
 from millfoam.readings.slurry_over_time import read_series, ring_depth, slurry_blocks, slurry_way
 
@@ -32,7 +32,7 @@ class Surface:
 class ReynoldsNumbers:
     """Particle Reynolds numbers by the balls' diameter, of all cells at the averaged written times: values [n]; the
     slurry's volume at each, volumes [n] (m3); part of the time to which each belongs, parts [n]: a whole turn of the
-    mill, 0 or more, or -1 before the first of them."""
+    mill or a fifth of the time, 0 or more, or -1 before the first of them."""
     values: np.ndarray
     volumes: np.ndarray
     parts: np.ndarray
@@ -124,15 +124,17 @@ def read_maps(case, found):
 
 
 def read_reynolds(case):
-    """ReynoldsNumbers of a MillCase: parts are the last whole turns of the averages if two fit, and otherwise their
-    written times."""
+    """ReynoldsNumbers of a MillCase: parts are the last whole turns of the averages if two fit, and otherwise fifths of
+    their time. RuntimeError if no time of the averages was written."""
     fluid = case.mill.slurry("density_kg_m3"), case.mill.slurry("plastic_viscosity_Pa_s")
     frames = [frame for frame in case.flow.frames if frame[0] >= case.begin - 1e-9]
     if not frames:
         raise RuntimeError(f"no time from {case.begin:g} s on was written")
     turns = whole_turns(case.last - case.begin, case.turn)
-    parts = (range(len(frames)) if turns < 2 else  # the first moment of a turn belongs to the one before
-             [max(int(np.ceil((time - case.last) / case.turn - OFF)) + turns - 1, -1) for time, _ in frames])
+    if turns < 2:
+        parts = np.arange(len(frames)) * BLOCKS // len(frames)
+    else:  # the first moment of a turn belongs to the one before
+        parts = [max(int(np.ceil((time - case.last) / case.turn - OFF)) + turns - 1, -1) for time, _ in frames]
     pairs = [reynolds(read_frame(case.flow, *frame), *fluid) for frame in frames]
     return ReynoldsNumbers(*(np.concatenate(part) for part in zip(*pairs)),
                            np.repeat(parts, [len(values) for values, _ in pairs]))
