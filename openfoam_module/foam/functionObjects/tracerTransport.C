@@ -141,8 +141,75 @@ Foam::tmp<Foam::surfaceScalarField> Foam::tracerTransport::solve(
     MULES::limitCorr(
         1 / deltaT.value(), share, C_, F, better, zeroField(), zeroField(),
         oneField(), zeroField());
+    bound(
+        better,
+        content_ - deltaT.value() * mesh_.V() *
+                       fvc::surfaceIntegrate(flux)().primitiveField(),
+        slurry);
     flux += better;
     return tmp<surfaceScalarField>::New(flux);
+}
+
+
+void Foam::tracerTransport::bound(
+    surfaceScalarField& correction, const scalarField& content,
+    const scalarField& slurry) const
+{
+    // Of each cell: volumes that leave and enter, then the shares of them that
+    // it allows
+    volScalarField out(
+        IOobject("tracerOut", mesh_.time().timeName(), mesh_), mesh_,
+        dimensionedScalar(dimless, Zero));
+    volScalarField in("tracerIn", out);
+    const scalar deltaT = mesh_.time().deltaTValue();
+    const auto pass = [&](const label celli, const scalar flux)
+    { (flux > 0 ? out : in)[celli] += deltaT * mag(flux); };
+    const labelUList& owner = mesh_.owner();
+    const labelUList& neighbour = mesh_.neighbour();
+    forAll(correction, facei)
+    {
+        pass(owner[facei], correction[facei]);
+        pass(neighbour[facei], -correction[facei]);
+    }
+    for (const fvsPatchScalarField& patch : correction.boundaryField())
+    {
+        const labelUList& cells = patch.patch().faceCells();
+        forAll(patch, facei)
+        {
+            pass(cells[facei], patch[facei]);
+        }
+    }
+    forAll(slurry, celli)
+    {
+        const scalar held = max(content[celli], scalar(0));
+        const scalar room = max(slurry[celli] - content[celli], scalar(0));
+        out[celli] = min(scalar(1), held / max(out[celli], VSMALL));
+        in[celli] = min(scalar(1), room / max(in[celli], VSMALL));
+    }
+    out.correctBoundaryConditions();
+    in.correctBoundaryConditions();
+
+    forAll(correction, facei)
+    {
+        const label own = owner[facei];
+        const label nei = neighbour[facei];
+        correction[facei] *= correction[facei] > 0 ? min(out[own], in[nei])
+                                                   : min(in[own], out[nei]);
+    }
+    // Through other patches no correction passes
+    for (fvsPatchScalarField& patch : correction.boundaryFieldRef())
+    {
+        if (patch.coupled())
+        {
+            const label patchi = patch.patch().index();
+            const fvPatchScalarField& outs = out.boundaryField()[patchi];
+            const fvPatchScalarField& ins = in.boundaryField()[patchi];
+            patch *= pos(patch) * min(outs.patchInternalField()(),
+                                      ins.patchNeighbourField()()) +
+                     neg0(patch) * min(ins.patchInternalField()(),
+                                       outs.patchNeighbourField()());
+        }
+    }
 }
 
 
