@@ -389,13 +389,13 @@ class Tables(unittest.TestCase):
         self.assertEqual((row["memory, GB"], row["planned memory, GB"], row["planned disk, GB"]), (0.3, 0.4, 5))
 
     def test_columns_have_the_freedom_of_an_error(self):
-        row = study.pair("drop", "Pa", Mean(1.234e-3, 0.056e-3, 2), 1e3)
+        row = study.freedom_columns("drop, Pa", Mean(1.234e-3, 0.056e-3, 2), 1e3)
         self.assertEqual(row, {"drop, Pa": 1.234, "drop, Pa ±": 0.056, "drop, Pa, freedom": 2})
         self.assertEqual(list(study.lines_of([row]))[0].split(maxsplit=2)[2], "1.23 ± 0.06 (2)")
 
     def test_cells_have_errors_where_they_are_known(self):
-        rows = [{"run": "a", **study.pair("drop", "Pa", Mean(1.234, 0.056))},
-                {"run": "b", **study.pair("drop", "Pa", Mean(np.nan, np.nan))}]
+        rows = [{"run": "a", **study.freedom_columns("drop, Pa", Mean(1.234, 0.056))},
+                {"run": "b", **study.freedom_columns("drop, Pa", Mean(np.nan, np.nan))}]
         self.assertEqual([line.split() for line in study.lines_of(rows)],
                          [["run", "a", "b"], ["drop,", "Pa", "1.23", "±", "0.06", "–"], []])
 
