@@ -33,5 +33,5 @@ def freedom_columns(column: str, mean: Mean, scale: float = 1.0) -> Row:
 
 def freedom_text(row: Row, column: str, digits: int = 2) -> str:
     """mean_text, with the error's degrees of freedom in brackets where it is not exact: `1.20 ± 0.10 (4)`."""
-    freedom = row.get(f"{column}, freedom", np.inf)
-    return mean_text(row, column, digits) + ("" if np.isinf(freedom) else f" ({freedom:.0f})")
+    words, freedom = mean_text(row, column, digits), row.get(f"{column}, freedom", np.inf)
+    return words if np.isinf(freedom) or np.isnan(row.get(f"{column} ±", np.nan)) else f"{words} ({freedom:.0f})"

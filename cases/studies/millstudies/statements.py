@@ -63,12 +63,11 @@ def humps_without_balls(runs):
         error = float(np.sqrt(np.mean(errors**2)))
         try:
             fit = fit_gaussians(run.series.z, height, 2)
-            distance = hump_distance(run)
         except RuntimeError as failure:
             found.append(Verdict(statement, run.name, NOT_TESTED, str(failure)))
             continue
         places = maxima(run.series.z, height, error)
-        apart[which.speed] = distance, len(places) == 2, run
+        apart[which.speed] = hump_distance(run), len(places) == 2, run
         seen = f"maxima at {millimetres(places)} mm" if len(places) else "no maximum"
         figure = (f"{seen} between the ends, {millimetres(run.series.z[[0, -1]])} mm; two Gaussians at "
                   f"{millimetres(fit.places)} mm, RMSD {1e3 * fit.rmsd:.1f} mm; error {1e3 * error:.1f} mm")
@@ -79,12 +78,15 @@ def humps_without_balls(runs):
 
 def hump_distance(run):
     """Distance (m) of the two Gaussians of a run's profile, with the error of the jackknife over its turns (by_turn);
-    NaN if one of them is at an end of the profile, with all turns or without one. RuntimeError if there is no fit."""
+    NaN if one of them is at an end of the profile, or there is no fit, with all turns or without one."""
     heights = by_turn(run, run.series.height)
 
     def apart(turns):
         return known_distances(fit_gaussians(run.series.z, heights[turns].mean(axis=0), 2), run.series.z)
-    (value,), (error,) = jackknife(apart, len(heights))
+    try:
+        (value,), (error,) = jackknife(apart, len(heights))
+    except RuntimeError:
+        return Mean(np.nan, np.nan)
     return Mean(float(value if np.isfinite(error) else np.nan), float(error), len(heights) - 1)
 
 
@@ -96,7 +98,7 @@ def about_twice(less, more):
 def ratio_words(less, more):
     """Two lengths (Mean, m) and their ratio in words."""
     if np.isnan(less.value + more.value):
-        return "no distance: a peak is at the end of the fit"
+        return "no distance: a peak is at the end of the fit, or there is no fit"
     return f"{more.full_text('mm', 1e3)} over {less.full_text('mm', 1e3)} = {more.value / less.value:.2f}"
 
 
@@ -229,14 +231,15 @@ def reynolds_below(runs):
 
 def by_both_lengths(found, limit):
     """Verdict on whether most ReynoldsNumbers are below a limit, and the numbers, by the balls' diameter and by their
-    radius; DEPENDS if the two verdicts are not the same."""
+    radius: DEPENDS if one confirms what the other contradicts, undecided if one of them is."""
     judgements, words = [], []
     for length, factor in (("diameter", 1.0), ("radius", 0.5)):
         share = found.share_below(limit / factor)
         judgements.append(by_sign(share - Mean(0.5)))
         words.append(f"by the {length} {judgements[-1]}: {share.full_text('%', 100)} of the slurry in the bed is under "
                      f"{limit}; median {factor * found.median:.0f}")
-    return judgements[0] if len(set(judgements)) == 1 else DEPENDS, "; ".join(words)
+    verdict = judgements[0] if len(set(judgements)) == 1 else UNDECIDED if UNDECIDED in judgements else DEPENDS
+    return verdict, "; ".join(words)
 
 
 def drop(run):

@@ -25,6 +25,7 @@ from scipy.integrate import solve_ivp
 
 from millfoam.files import foam
 from millfoam.files.constants import GRAVITY
+from millfoam.readings.models import orifice_coefficients, plate_loss
 from millfoam.run import run as run_program
 from millfoam.run import case_options, copy_case, fresh_runs, marked, run_jobs, write_parameters, write_table
 
@@ -37,9 +38,6 @@ HEIGHT, LAYERS, START = 0.5, 200, 0.45  # of the column, m; surface at the start
 TOLERANCE = 0.01  # of the first head; of the exponential's time, relative
 SHORT = 1e-6  # s that a run may end early: the digits of its times
 HEAD_LEFT = 0.1  # share of the first head down to which a closed form is fitted
-# Contraction of a jet out of a slit, Kirchhoff's pi/(pi + 2). Round holes with sharp edges have 0.603 to 0.620, squares
-# and slits more (measured at heads of 1 to 20 ft: Encyclopaedia Britannica, 11th edition, vol. 14, "Hydraulics").
-SLIT, ROUND = np.pi / (np.pi + 2), 0.603
 GRATES = Path(__file__).resolve().parents[3] / "scripts" / "mill_case" / "constant" / "grateProperties"
 
 
@@ -74,14 +72,13 @@ class Column:
 
     @property
     def loss(self):
-        """Loss coefficient K of the grate: Idelchik, diagram 8-1, sharp-edged holes."""
-        return ((0.707 * np.sqrt(1 - self.open_share) + 1 - self.open_share) / self.open_share)**2
+        """Loss coefficient K of the grate."""
+        return plate_loss(self.open_share)
 
     @property
     def orifice(self):
-        """Least and largest discharge coefficient of an orifice: of a round hole; of a slit if the jets of all slits
-        join behind the grate with Borda & Carnot's loss, which gives back a part of their head."""
-        return ROUND, SLIT / (1 - SLIT * self.open_share)
+        """Least and largest discharge coefficient of an orifice."""
+        return orifice_coefficients(self.open_share)
 
     def gradient(self, speed, density, nu):
         """Pressure gradient (Pa/m) at a superficial speed (m/s), of the bed by Ergun 1952 or its viscous part."""

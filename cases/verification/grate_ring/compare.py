@@ -10,6 +10,7 @@ f and the discharge coefficient C; behind them is air. Over the ring, whose chor
 and the hold-up V of a drum of length L falls by dV/dt = -Q(H(V)). C of the plate that a mill's grates are is
 1/(f sqrt(K + 1)): K by Idelchik, diagram 8-1, and 1 because the pool in front of them is at rest. Independent of K, the
 coefficient that the discharge has must be an orifice's. Exit code 1 if a run misses a limit."""
+import re
 import shutil
 import sys
 from dataclasses import dataclass
@@ -23,7 +24,9 @@ from scipy.integrate import quad, solve_ivp
 from scipy.optimize import brentq
 
 from millfoam.files.constants import GRAVITY
+from millfoam.files.mill import read_mill
 from millfoam.files.tables import read_columns
+from millfoam.readings.models import orifice_coefficients, plate_loss
 from millfoam.run import run as run_program
 from millfoam.run import case_options, fresh_runs, marked, run_jobs, set_options, write_table
 
@@ -33,9 +36,6 @@ RADIUS, LENGTH, INNER, OUTER, OPEN = 0.15, 0.06, 0.09, 0.13, 0.1  # of mill.yaml
 END = 0.4  # s, of mill.yaml
 BEGIN = 0.05  # s: the pool begins at rest and has its discharge after 0.03 s
 TOLERANCE, HOLD_UP = 0.025, 0.01  # of the discharge, of a pool a few cells deep; of what has left
-# Contraction of a jet out of a slit, Kirchhoff's pi/(pi + 2). Round holes with sharp edges have 0.603 to 0.620, squares
-# and slits more (measured at heads of 1 to 20 ft: Encyclopaedia Britannica, 11th edition, vol. 14, "Hydraulics").
-SLIT, ROUND = np.pi / (np.pi + 2), 0.603
 TEMPLATE = Path(__file__).resolve().parents[3] / "scripts" / "mill_case"
 
 
@@ -55,15 +55,12 @@ class Pool:
     @property
     def coefficient(self):
         """Discharge coefficient of the open holes, by the plate's loss."""
-        share = self.open_share
-        loss = ((0.707 * np.sqrt(1 - share) + 1 - share) / share)**2
-        return 1 / (share * np.sqrt(loss + 1))
+        return 1 / (self.open_share * np.sqrt(plate_loss(self.open_share) + 1))
 
     @property
     def band(self):
-        """Least and largest discharge coefficient of an orifice: of a round hole; of a slit if the jets of all slits
-        join behind the plate with Borda & Carnot's loss, which gives back a part of their head."""
-        return ROUND, SLIT / (1 - SLIT * self.open_share)
+        """Least and largest discharge coefficient of an orifice."""
+        return orifice_coefficients(self.open_share)
 
     def discharge(self, level):
         """Discharge (m3/s) of a pool of a level (m) by the closed form."""
@@ -145,6 +142,16 @@ class Drain:
                                         ("ended early", END - self.time[-1] <= 1e-6)) if not held]
 
 
+def require_sizes(case):
+    """RuntimeError unless the resolved mill of a case has the sizes of the closed form, which are those here."""
+    mill = read_mill(case)
+    grates = mill.asked("geometry", "grates")
+    found = (mill.radius, mill.length, grates["inner_radius"], grates["outer_radius"], grates["open_fraction"],
+             mill.asked("flow", "duration"))
+    if not np.allclose(found, (RADIUS, LENGTH, INNER, OUTER, OPEN, END), rtol=1e-12):
+        raise RuntimeError(f"mill.yaml has other sizes than compare.py: {found}")
+
+
 def run(pool, case, here):
     case.mkdir()
     for part in ("constant", "system"):
@@ -155,8 +162,12 @@ def run(pool, case, here):
     run_program(case, "millMesh", here / "mill.yaml", "--case", ".", *set_options(
         [f"flow.start.level={pool.level}", f"geometry.grates.pegged={pool.pegged}",
          f"resolution.cell_size={pool.cell}"]))
+    require_sizes(case)
     properties = case / "constant" / "millProperties"
-    properties.write_text(properties.read_text().replace("omega -1;", "omega 0;"))
+    text, count = re.subn(r"^omega .*;$", "omega 0;", properties.read_text(), flags=re.MULTILINE)
+    if count != 1:
+        raise RuntimeError(f"{properties}: {count} lines 'omega ...;', expected one")
+    properties.write_text(text)
     run_program(case, "slurryStart")
     run_program(case, "slurryFoam")
     table = read_columns(case, "slurryBalance")

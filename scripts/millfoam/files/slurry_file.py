@@ -142,7 +142,9 @@ def uncovered_share(path: Path | str) -> float | None:
     file has no such mean, or is of a millFoam that did not write this. RuntimeError if it is not complete."""
     with _open_slurry(path) as file:
         about = file["mean"].attrs if "mean" in file else {}
-        return 1 - float(about["duration"] / (about["end"] - about["begin"])) if "duration" in about else None
+        if "duration" not in about:
+            return None
+        return max(1 - float(about["duration"] / (about["end"] - about["begin"])), 0.0)
 
 
 def read_ball_forces(path: Path | str, begin: float | None = None, end: float | None = None) -> BallForces:

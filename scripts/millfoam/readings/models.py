@@ -198,6 +198,21 @@ def grate_hold_up(flow: float, diameter: float, grate_radius: float, open_area: 
     return float(most + (hourly - through_charge * most ** 2) / (935 * share ** 2 * open_area * np.sqrt(diameter)))
 
 
+def plate_loss(open_share: float) -> float:
+    """Loss coefficient K of a thin plate with sharp-edged holes, by the velocity in front of it: I. E. Idelchik,
+    Handbook of Hydraulic Resistance, diagram 8-1. open_share: of the plate's area, above 0 and at most 1."""
+    return float(((0.707 * np.sqrt(1 - open_share) + 1 - open_share) / open_share)**2)
+
+
+def orifice_coefficients(open_share: float) -> tuple[float, float]:
+    """Least and largest discharge coefficient of the sharp-edged holes of a plate of this open share. The least is that
+    of a round hole: 0.603 to 0.620, measured at heads of 1 to 20 ft (Encyclopaedia Britannica, 11th edition, vol. 14,
+    "Hydraulics"); squares and slits have more. The largest is that of slits, whose jets contract to pi/(pi + 2)
+    (Kirchhoff), if the jets join behind the plate with Borda & Carnot's loss, which gives back a part of their head."""
+    slit = np.pi / (np.pi + 2)
+    return 0.603, float(slit / (1 - slit * open_share))
+
+
 def _check(flow: float, discharge_depth: float) -> None:
     if not (flow >= 0 and discharge_depth >= 0):
         raise ValueError(f"flow {flow} m3/s, depth at the discharge {discharge_depth} m; expected 0 or more")

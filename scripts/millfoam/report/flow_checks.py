@@ -49,7 +49,7 @@ def averaged_time(case: MillCase) -> Check:
     if missing is None:
         return Check(name, "unknown", "slurry.h5 does not say which share of its time is missing",
                      "Run the flow with this version, beyond the start of its averages.")
-    return judged(name, missing, GAP, f"{100 * missing:.3g} % of their time are missing",
+    return judged(name, missing, GAP, f"{100 * missing:.2f} % of their time is missing (limit {100 * GAP:g} %)",
                   "Remove the flow and run it again: files of postProcessing/voxelAverages/segments were lost.",
                   meaning="Maps of the slurry and the force on balls are means of a part of the time")
 
