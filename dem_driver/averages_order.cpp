@@ -78,8 +78,8 @@ GridRequest grid_of(const JsonObject& json, const fs::path& folder) {
   mesh.file = folder / json.get<std::string>("mesh");
   mesh.motion = json.get<std::vector<std::string>>("motion");
   mesh.at_rest = json.get<bool>("at_rest");
-  mesh.period_z = json.find<double>("period_m");
-  const auto smoothing = json.find<double>("smoothing_m");
+  mesh.period_z = json.get_or_null<double>("period_m");
+  const auto smoothing = json.get_or_null<double>("smoothing_m");
   mesh.smoothed = smoothing.has_value();
   mesh.smoothing = smoothing.value_or(mesh.smoothing);
   return mesh;
@@ -106,11 +106,11 @@ AverageRequest request_of(const JsonObject& json, const fs::path& folder) {
   request.method = exact ? DepositionMethod::exact : DepositionMethod::sample;
   request.template_points = json.get<int>("template");
   for (const auto& wall : json.get<std::vector<std::string>>("walls")) request.walls.push_back(folder / wall);
-  request.solidity_cap = json.find<double>("solidity_cap");
+  request.solidity_cap = json.get_or_null<double>("solidity_cap");
   for (const auto& length : json.get<std::vector<std::optional<double>>>("windows_s"))
     request.windows.push_back({length, {}});
-  request.start = json.find<double>("start_s");
-  request.end = json.find<double>("end_s");
+  request.start = json.get_or_null<double>("start_s");
+  request.end = json.get_or_null<double>("end_s");
   request.largest_outside = json.get<double>("largest_outside");
   return request;
 }

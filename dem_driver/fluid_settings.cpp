@@ -2,7 +2,6 @@
 #include "dem_driver/fluid_settings.hpp"
 
 #include <cassert>
-#include <stdexcept>
 
 #include "dem_driver/json_file.hpp"
 #include "dem_driver/pairs.hpp"

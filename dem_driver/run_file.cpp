@@ -34,12 +34,12 @@ CompleteRun read_run_file(const fs::path& file) {
   CompleteRun found;
   if (const auto mill = run->find_object("mill"))
     found.charge = mill->find<std::string>("charge").value_or("");
-  found.time_step = run->get<double>("timestep_s");
+  const auto positive = [](double value) { return value > 0 && std::isfinite(value); };
+  found.time_step = run->get<double>("timestep_s", "a positive number", positive);
   const double begin = run->find<double>("begin_s").value_or(0);
-  const double steps = (begin + run->get<double>("duration_s")) / found.time_step;
-  if (!(std::abs(steps) < 1e15))
-    throw std::runtime_error(file.string() +
-                             ": 'duration_s' is no number of steps of 'timestep_s', expected one");
+  const double steps =
+      (begin + run->get<double>("duration_s", "a time in s above 0", positive)) / found.time_step;
+  if (!(steps > 0 && steps < 1e15)) run->refuse("duration_s", "a number of steps of 'timestep_s'");
   found.end_step = std::lround(steps);
   return found;
 }

@@ -18,6 +18,11 @@ namespace {
 
 enum class Attempt { locked, busy, removed };
 
+/// Whether the error of flock is that the file system has no locks.
+bool has_no_locks(int error) {
+  return error == EOPNOTSUPP || error == ENOSYS || error == EINVAL;
+}
+
 int open_file(const LockRequest& request) {
   const int file = open(request.file.c_str(), O_RDWR | O_CREAT | (request.inherited ? 0 : O_CLOEXEC), 0666);
   if (file >= 0) return file;
@@ -27,9 +32,12 @@ int open_file(const LockRequest& request) {
 }
 
 /// Whether an open file could be locked, and is still the one of its name: the process that had the lock may
-/// just have removed it.
+/// just have removed it. Throws std::runtime_error where locking fails for another reason.
 Attempt try_lock(int file, const std::filesystem::path& name) {
-  if (flock(file, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) return Attempt::busy;
+  const int error = flock(file, LOCK_EX | LOCK_NB) == 0 ? 0 : errno;
+  if (error == EWOULDBLOCK || error == EINTR) return Attempt::busy;
+  if (error != 0 && !has_no_locks(error))
+    throw std::runtime_error(name.string() + ": cannot be locked: " + std::generic_category().message(error));
   struct stat locked {};
   struct stat named {};
   const bool is_named =

@@ -12,8 +12,8 @@ namespace millfoam::averaging {
 struct LockRequest {
   std::filesystem::path file;                 ///< made where it is missing, in a folder that is there
   std::chrono::milliseconds longest_wait{0};  ///< for another process that has the lock
-  bool inherited =
-      false;  ///< the lock lasts until the programs that this process starts meanwhile have ended
+  /// The lock lasts until the programs that this process starts meanwhile have ended.
+  bool inherited = false;
   bool temporary = false;  ///< the file is removed with the lock
 };
 
@@ -23,7 +23,7 @@ struct LockRequest {
 class FileLock {
  public:
   /// The lock, or nothing while another process has it. Throws std::runtime_error naming the file when it
-  /// cannot be written.
+  /// cannot be written or locked.
   static std::optional<FileLock> take(const LockRequest& request);
   ~FileLock();
   /// Takes over the lock; `other` holds none any more.

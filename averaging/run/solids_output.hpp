@@ -13,7 +13,8 @@
 
 namespace millfoam::averaging {
 
-/// Checks that every file that a request is to write may be written, and locks them. Throws SolidsFileError.
+/// Checks that every file that a request is to write may be written, and locks them. Throws SolidsFileError,
+/// and std::runtime_error where a lock's file cannot be written.
 std::vector<FileLock> lock_outputs(const AverageRequest& request);
 
 /// What holds for a whole solids file.

@@ -115,8 +115,12 @@ void require_summary_or_nothing(const std::filesystem::path& path) {
 }
 
 std::string run_of_summary(const std::filesystem::path& path) {
-  const auto found = JsonObject::of_format(path, summary_format);
-  return found ? found->find<std::string>("run_id").value_or("") : "";
+  try {
+    const auto found = JsonObject::of_format(path, summary_format);
+    return found ? found->find<std::string>("run_id").value_or("") : "";
+  } catch (const JsonError&) {
+    return "";
+  }
 }
 
 std::string as_json(const SolidsSummary& summary, const std::string& writer) {

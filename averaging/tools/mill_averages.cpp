@@ -73,7 +73,7 @@ void refuse_without_grid(const Options& options) {
 }  // namespace
 
 SteadyStart steady_start(const fs::path& results) {
-  const auto found = JsonObject::read(results);
+  const auto found = JsonObject::read(results, "; give averages.start a time, or run millDem again");
   const auto time = found ? found->find<double>("steady_from_s") : std::nullopt;
   if (!time)
     throw std::invalid_argument(results.string() +

@@ -41,7 +41,7 @@ struct SteadyStart {
 };
 
 /// From the `results.json` of a dry run: `steady_from_s` and `steady`. Throws std::invalid_argument that
-/// names the file where it has no such number.
+/// names the file where it has no such number, JsonError where it cannot be read.
 SteadyStart steady_start(const std::filesystem::path& results);
 
 /// DEM time at which the last whole window of a dry run ends, s. Times are rounded to whole time-steps, as

@@ -11,6 +11,8 @@ namespace millfoam {
 using Json = nlohmann::json;
 
 std::optional<JsonObject> JsonObject::read(const std::filesystem::path& file, const std::string& advice) {
+  if (std::filesystem::is_directory(file))
+    throw JsonError(file.string() + ": is a folder, expected a file of JSON" + advice);
   std::ifstream in(file, std::ios::binary);
   if (!in) return std::nullopt;
   return JsonObject({std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()}, file, advice);
@@ -79,9 +81,8 @@ std::vector<JsonObject> JsonObject::objects(const std::string& key) const {
 }
 
 void JsonObject::refuse(const std::string& key, const std::string& expected) const {
-  const Json* json = json_of(key);
-  throw JsonError(file_ + ": key '" + place_ + key + "' is " + (json == nullptr ? "missing" : json->dump()) +
-                  ", expected " + expected + advice_);
+  throw JsonError(file_ + ": key '" + place_ + key + "' is " +
+                  (contains(key) ? json_.at(key).dump() : "missing") + ", expected " + expected + advice_);
 }
 
 }  // namespace millfoam

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -22,37 +24,57 @@ class JsonError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Whether a JSON value is a whole number that an integral type has.
+template <typename Integer>
+bool is_whole_number(const nlohmann::json& json) {
+  using Limits = std::numeric_limits<Integer>;
+  if (json.is_number_unsigned())
+    return json.get<std::uint64_t>() <= static_cast<std::uint64_t>(Limits::max());
+  return json.is_number_integer() && json.get<std::int64_t>() >= static_cast<std::int64_t>(Limits::min());
+}
+
 /// What JsonObject reads as a Value: bool, whole and other numbers, std::string, and lists (std::vector,
-/// std::array), tables (std::map by std::string) and std::optional (null) of these. `is` tells whether a
-/// value is one, `words` is one or many of them in messages.
+/// std::array), tables (std::map by std::string) and std::optional (null) of these.
 template <typename Value>
 struct JsonKind {
-  static constexpr bool is_truth = std::is_same_v<Value, bool>;
-  static constexpr bool is_number = std::is_arithmetic_v<Value>;
-  static_assert(is_number || std::is_same_v<Value, std::string>);
+  /// Whether a JSON value is a Value.
   static bool is(const nlohmann::json& json) {
-    if (is_truth) return json.is_boolean();
-    if (is_number) return std::is_integral_v<Value> ? json.is_number_integer() : json.is_number();
-    return json.is_string();
+    if constexpr (std::is_same_v<Value, bool>) {
+      return json.is_boolean();
+    } else if constexpr (std::is_integral_v<Value>) {
+      return is_whole_number<Value>(json);
+    } else if constexpr (std::is_arithmetic_v<Value>) {
+      return json.is_number();
+    } else {
+      static_assert(std::is_same_v<Value, std::string>);
+      return json.is_string();
+    }
   }
+
+  /// One Value, or many of them, in messages.
   static std::string words(bool many = false) {
-    if (is_truth) return "true or false";
-    const std::string name = !is_number ? "text" : std::is_integral_v<Value> ? "whole number" : "number";
-    return many ? name + 's' : is_number ? "a " + name : name;
+    if (std::is_same_v<Value, bool>) return many ? "values true or false" : "true or false";
+    if (!std::is_arithmetic_v<Value>) return many ? "texts" : "text";
+    const std::string name = std::is_integral_v<Value> ? "whole number" : "number";
+    return many ? name + 's' : "a " + name;
   }
 };
 
 template <typename Value>
 struct JsonKind<std::optional<Value>> {
+  /// Whether a JSON value is null or a Value.
   static bool is(const nlohmann::json& json) { return json.is_null() || JsonKind<Value>::is(json); }
+  /// One or many in messages.
   static std::string words(bool many = false) { return JsonKind<Value>::words(many) + " or null"; }
 };
 
 template <typename Value>
 struct JsonKind<std::vector<Value>> {
+  /// Whether a JSON value is a list of Values.
   static bool is(const nlohmann::json& json) {
     return json.is_array() && std::all_of(json.begin(), json.end(), JsonKind<Value>::is);
   }
+  /// One or many in messages.
   static std::string words(bool many = false) {
     return (many ? "lists of " : "a list of ") + JsonKind<Value>::words(true);
   }
@@ -60,9 +82,11 @@ struct JsonKind<std::vector<Value>> {
 
 template <typename Value, std::size_t size>
 struct JsonKind<std::array<Value, size>> {
+  /// Whether a JSON value is a list of `size` Values.
   static bool is(const nlohmann::json& json) {
     return JsonKind<std::vector<Value>>::is(json) && json.size() == size;
   }
+  /// One or many in messages.
   static std::string words(bool many = false) {
     return (many ? "lists of " : "a list of ") + std::to_string(size) + ' ' + JsonKind<Value>::words(true);
   }
@@ -70,9 +94,11 @@ struct JsonKind<std::array<Value, size>> {
 
 template <typename Value>
 struct JsonKind<std::map<std::string, Value>> {
+  /// Whether a JSON value is an object of Values.
   static bool is(const nlohmann::json& json) {
     return json.is_object() && std::all_of(json.begin(), json.end(), JsonKind<Value>::is);
   }
+  /// One or many in messages.
   static std::string words(bool many = false) {
     return (many ? "objects of " : "an object of ") + JsonKind<Value>::words(true);
   }
@@ -85,7 +111,7 @@ class JsonObject {
   /// @param file  its name
   /// @param advice  ends every message, for example ": run millDem again"
   ///
-  /// Throws JsonError, with the line, for a text that is not JSON or no object.
+  /// Throws JsonError, with the line, for a text that is not JSON or no object, and for a folder.
   static std::optional<JsonObject> read(const std::filesystem::path& file, const std::string& advice = "");
 
   /// The same of a file's text.
@@ -117,16 +143,31 @@ class JsonObject {
   /// The value of a key. Throws JsonError without it, and for one of another kind.
   template <typename Value>
   Value get(const std::string& key) const {
-    if (auto value = find<Value>(key)) return *value;
-    refuse(key, JsonKind<Value>::words());
+    return get<Value>(key, JsonKind<Value>::words(), [](const Value&) { return true; });
+  }
+
+  /// The same of values that `allowed` accepts, which are `expected` in words.
+  template <typename Value, typename Allowed>
+  Value get(const std::string& key, const std::string& expected, const Allowed& allowed) const {
+    if (auto value = find<Value>(key, expected, allowed)) return *value;
+    refuse(key, expected);
+  }
+
+  /// The value of a key that must be there; nothing for null. Throws JsonError for one of another kind.
+  template <typename Value>
+  std::optional<Value> get_or_null(const std::string& key) const {
+    if (!contains(key)) refuse(key, JsonKind<std::optional<Value>>::words());
+    return find<Value>(key);
   }
 
   /// Whether the key is there, if only with null.
   bool contains(const std::string& key) const { return json_.contains(key); }
 
-  /// The object of a key, whose keys messages name as "key.theirs". `find_object` gives nothing without it.
-  /// Throw JsonError for what is no object, `object` also without the key.
+  /// The object of a key, whose keys messages name as "key.theirs". Throws JsonError without it, and for what
+  /// is no object.
   JsonObject object(const std::string& key) const;
+
+  /// The same; nothing without the key.
   std::optional<JsonObject> find_object(const std::string& key) const;
 
   /// The objects of the list of a key, whose keys messages name as "key[0].theirs". Throws JsonError without
@@ -151,10 +192,12 @@ class JsonObject {
 /// For nlohmann's JSON: null is nothing.
 template <typename Value>
 struct nlohmann::adl_serializer<std::optional<Value>> {
+  /// Reads a value, or nothing.
   template <typename Json>
   static void from_json(const Json& json, std::optional<Value>& value) {
     value = json.is_null() ? std::nullopt : std::optional<Value>(json.template get<Value>());
   }
+  /// Writes a value, or null.
   template <typename Json>
   static void to_json(Json& json, const std::optional<Value>& value) {
     json = value ? Json(*value) : Json();

@@ -3,10 +3,10 @@
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "meshing/files/json_object.hpp"
 #include "meshing/files/output_file.hpp"
 #include "meshing/mill/mill_charge.hpp"
 #include "meshing/mill/mill_document.hpp"
@@ -294,9 +294,7 @@ namespace {
 /// A file that is not a resolved mill, such as the description of the mill itself, is not replaced.
 void require_replaceable(const std::filesystem::path& file) {
   if (!std::filesystem::is_regular_file(file) || std::filesystem::file_size(file) == 0) return;
-  std::ifstream in(file);
-  const Json content = Json::parse(in, nullptr, false);
-  if (!content.is_object() || content.value("format", "") != "millfoam-mill")
+  if (!JsonObject::of_format(file, "millfoam-mill"))
     throw std::runtime_error("--resolved " + file.string() +
                              ": exists and is not a resolved mill; expected another file");
 }

@@ -74,8 +74,7 @@ struct FlowSetup {
 };
 
 /// Whether the last run that a case's record has came to its end at a flow time. False without a record, or
-/// with one that cannot be read: unlike the files that JsonObject reads for other rooms, none is refused.
-/// That reader is in meshing, which this room must not know.
+/// with one that cannot be read.
 /// @param case_folder  of the OpenFOAM case
 /// @param time  s; compared to a millionth, because names of times are rounded
 bool is_complete(const std::filesystem::path& case_folder, double time);

@@ -154,9 +154,14 @@ TEST_F(Resumption, ARunFileThatIsDamagedIsNamed) {
   write(folder_.run_file(), "{");
   expect_refused(plan_, folder_.run_file().string() + ":1: this is not JSON");
   write(folder_.run_file(), R"({"timestep_s": 0, "duration_s": 1})");
-  expect_refused(plan_, folder_.run_file().string() + ": 'duration_s' is no number of steps of 'timestep_s'");
+  expect_refused(plan_, folder_.run_file().string() + ": key 'timestep_s' is 0, expected a positive number");
+  write(folder_.run_file(), R"({"timestep_s": 1e-5, "duration_s": 1e12})");
+  expect_refused(plan_,
+                 folder_.run_file().string() +
+                     ": key 'duration_s' is 1000000000000.0, expected a number of steps of 'timestep_s'");
   write(folder_.run_file(), R"({"timestep_s": 1e-5})");
-  expect_refused(plan_, folder_.run_file().string() + ": key 'duration_s' is missing, expected a number");
+  expect_refused(plan_,
+                 folder_.run_file().string() + ": key 'duration_s' is missing, expected a time in s above 0");
 }
 
 TEST_F(Resumption, ADeckAloneIsOneOfTheRunThatIsThere) {

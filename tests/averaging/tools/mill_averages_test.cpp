@@ -173,6 +173,12 @@ TEST_F(MillAverages, TheStartOfARunThatIsNotSteadyHasAWarning) {
   EXPECT_EQ(steady_start(results).warning,
             path("results.json") +
                 ": the dry run is not steady; its last part is averaged, from 0.2 s on. Raise dem.duration");
+  for (const auto& [text, words] :
+       {std::pair{"{}", ": no number steady_from_s"}, {"{\n", ":2: this is not JSON"}}) {
+    folder_.write("results.json", text);
+    expect_named(message_of<std::exception>([&] { steady_start(results); }),
+                 {path("results.json") + words, "averages.start a time"});
+  }
 }
 
 TEST_F(MillAverages, OptionsOfAGridAreRefusedWithoutOne) {

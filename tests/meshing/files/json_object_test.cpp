@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <functional>
 
 namespace millfoam {
@@ -37,11 +38,13 @@ TEST(JsonObject, AKeyWithNullIsAsOneThatIsNotThere) {
     EXPECT_FALSE(json.find_object(key));
   }
   EXPECT_TRUE(json.contains("end_s"));
+  EXPECT_FALSE(json.get_or_null<double>("end_s"));
 }
 
 TEST(JsonObject, NamesFileKeyValueAndWhatWasExpected) {
   const std::string text =
-      R"({"dt": "x", "steps": 1.5, "ends": [1], "parts": [{"share": true}], "mill": {}})";
+      R"({"dt": "x", "steps": 1.5, "ends": [1], "parts": [{"share": true}], "mill": {},
+          "nothing": null, "large": 4294967296})";
   const auto expect = [&](const std::string& words, const std::function<void(const JsonObject&)>& read) {
     EXPECT_EQ(refusal(text, read), "run.json: key " + words + ": run it again");
   };
@@ -54,7 +57,21 @@ TEST(JsonObject, NamesFileKeyValueAndWhatWasExpected) {
          [](const JsonObject& json) { json.objects("parts")[0].get<double>("share"); });
   expect("'mill.walls' is missing, expected text",
          [](const JsonObject& json) { json.object("mill").get<std::string>("walls"); });
+  expect("'nothing' is null, expected a number", [](const JsonObject& json) { json.get<double>("nothing"); });
+  expect("'end' is missing, expected a number or null",
+         [](const JsonObject& json) { json.get_or_null<double>("end"); });
+  expect("'large' is 4294967296, expected a whole number",
+         [](const JsonObject& json) { json.get<int>("large"); });
+  expect("'dt' is \"x\", expected a time above 0", [](const JsonObject& json) {
+    json.get<double>("dt", "a time above 0", [](double value) { return value > 0; });
+  });
   expect("'ends' is [1], expected a list of objects", [](const JsonObject& json) { json.objects("ends"); });
+}
+
+TEST(JsonObject, AFolderIsNoFile) {
+  EXPECT_THROW(JsonObject::read(std::filesystem::temp_directory_path()), JsonError);
+  EXPECT_FALSE(JsonObject::of_format(std::filesystem::temp_directory_path(), "a"));
+  EXPECT_FALSE(JsonObject::read("no_such_file.json"));
 }
 
 TEST(JsonObject, NamesTheLineOfATextThatIsNotJson) {
