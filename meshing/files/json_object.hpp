@@ -60,6 +60,7 @@ struct JsonKind {
   }
 };
 
+/// JsonKind of null or a Value.
 template <typename Value>
 struct JsonKind<std::optional<Value>> {
   /// Whether a JSON value is null or a Value.
@@ -68,6 +69,7 @@ struct JsonKind<std::optional<Value>> {
   static std::string words(bool many = false) { return JsonKind<Value>::words(many) + " or null"; }
 };
 
+/// JsonKind of a list.
 template <typename Value>
 struct JsonKind<std::vector<Value>> {
   /// Whether a JSON value is a list of Values.
@@ -80,6 +82,7 @@ struct JsonKind<std::vector<Value>> {
   }
 };
 
+/// JsonKind of a list of `size` values.
 template <typename Value, std::size_t size>
 struct JsonKind<std::array<Value, size>> {
   /// Whether a JSON value is a list of `size` Values.
@@ -92,6 +95,7 @@ struct JsonKind<std::array<Value, size>> {
   }
 };
 
+/// JsonKind of an object whose values are of one kind.
 template <typename Value>
 struct JsonKind<std::map<std::string, Value>> {
   /// Whether a JSON value is an object of Values.
