@@ -172,10 +172,11 @@ class LateErrors(RelaxingFlow):
             flow = replace(flow, turns=12, case=case)
             found, plain = with_relaxation(flow, self.TRIALS), turns_mean(flow.of_turns("holdUp"))
             within.append(abs(found.whole.value - 4e-3) < found.whole.reach)
-            plainly.append(abs(plain.value - 4e-3) < plain.reach)
+            # Without the trials, and with one degree of freedom less than turns
+            plainly.append(abs(plain.value - 4e-3) < Mean(plain.value, plain.error, 11).reach)
             self.assertAlmostEqual(found.chamber.error / found.whole.error, 0.8)
         self.assertGreater(np.mean(within), 0.9)
-        self.assertLess(np.mean(plainly), 0.85)
+        self.assertLess(np.mean(plainly), 0.7)
 
     def test_without_trials_are_those_of_its_turns(self):
         flow = self.flow(20)

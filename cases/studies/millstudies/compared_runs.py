@@ -2,7 +2,8 @@
 """Runs of the 30 cm mill and of the 12 cm mill's slice for comparisons, whether they are steady, and verdicts.
 
 Verdicts: `confirmed` and `contradicted` if the difference is one with 95 % confidence (Mean.sign), `undecided` if it is
-not or the height of a run drifts (see `unsteady`), `not tested` if a run is missing, which the verdict names. A verdict
+not or the height of a run drifts (see `unsteady`), `not tested` if a run is missing, which the verdict names,
+and `depends on the definition` where one definition of a number confirms what another one contradicts. A verdict
 on runs that the report does not call steady says so. Runs of the 30 cm mill count if they reach LATEST."""
 from dataclasses import dataclass
 from typing import NamedTuple
