@@ -77,7 +77,27 @@ class Runs(unittest.TestCase):
         flows = [run for run in RUNS.values() if is_published(run) and run.way != "dry"]
         self.assertEqual(sum(run.law is None for run in flows), 6)
         self.assertEqual(sum(run.law is not None for run in flows), 9)
-        self.assertEqual(RUNS["direct_75_20"].way, "copies")
+        for name in ("direct_75_20", "iterated_75_20"):
+            self.assertEqual(RUNS[name].way, "copies")
+
+    def test_the_last_of_all_passes_has_the_results(self):
+        run, root = RUNS["iterated_75_20"], Path(self.enterContext(tempfile.TemporaryDirectory()))
+        folder = root / run.name
+        with self.assertRaisesRegex(flow_numbers.NotFinished, "not begun"):
+            flow_numbers.folders_of(root, run)
+        folder.mkdir()
+        with self.assertRaisesRegex(flow_numbers.NotFinished, "no pass of balls that feel the slurry is complete"):
+            flow_numbers.folders_of(root, run)
+        coupling = {"format": "millfoam-coupling", "passes": 2, "most_passes": 3, "settled": False,
+                    "folders": [".", "pass_2"]}
+        (folder / "coupling.json").write_text(json.dumps(coupling))
+        with self.assertRaisesRegex(flow_numbers.NotFinished, "pass 2 of at most 3 changed the results"):
+            flow_numbers.folders_of(root, run)
+        for end in ({"settled": True}, {"most_passes": 2}):
+            (folder / "coupling.json").write_text(json.dumps(coupling | end))
+            self.assertEqual(flow_numbers.folders_of(root, run), [folder, folder / "pass_2"])
+        self.assertEqual(flow_numbers.folders_of(root, RUNS["direct_75_20"]), [root / "direct_75_20" / "direct"])
+        self.assertEqual(flow_numbers.folders_of(root, RUNS["seed"]), [root / "seed"])
 
 
 def heights(turn):

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
+from millfoam.files.data_files import read_json
 from millfoam.files.mill_case import MillCase
 from millfoam.files.slurry_file import SlurryMap
 from millfoam.files.solids_file import SolidsMap
@@ -62,6 +63,22 @@ class Flow:
         """Slurry in the mill at the first and at the last step, m3."""
         volumes = self.case.balance["holdUp"]
         return float(volumes[0]), float(volumes[-1])
+
+
+def folders_of(root: Path, run: Run) -> list[Path]:
+    """Folders of all flows of a run, the last of which has its results: `direct` of balls and slurry at the same time,
+    and those of all passes of balls and slurry in turn. NotFinished if passes are to come."""
+    folder = root / run.name
+    if "flow.coupling=direct" in run.changes:
+        return [folder / "direct"]
+    if "flow.coupling=iterated" not in run.changes:
+        return [folder]
+    if not (folder / "coupling.json").is_file():
+        raise NotFinished("no pass of balls that feel the slurry is complete" if folder.is_dir() else "not begun")
+    coupling = read_json(folder / "coupling.json", "coupling")
+    if not coupling["settled"] and coupling["passes"] < coupling["most_passes"]:
+        raise NotFinished(f"pass {coupling['passes']} of at most {coupling['most_passes']} changed the results")
+    return [folder / name for name in coupling["folders"]]
 
 
 def over_turns(case: MillCase, column: str, turns: int) -> Mean:

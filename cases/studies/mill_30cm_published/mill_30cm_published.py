@@ -26,17 +26,11 @@ from millstudies.mean_columns import Row, freedom_columns, freedom_text
 from millstudies.statements import verdicts
 
 import drawings
-from flow_numbers import Flow, NotFinished, read_flow
+from flow_numbers import Flow, NotFinished, folders_of, read_flow
 from own_statements import own_verdicts
 from runs import RUNS, Run, is_published
 
 REFERENCE = RUNS["Beetstra_75_20"]  # on the page of all runs, where it is complete
-
-
-def place_of(root: Path, run: Run) -> Path:
-    """The folder with a run's results: balls and slurry at the same time have one of their own."""
-    direct = root / run.name / "direct"
-    return direct if "flow.coupling=direct" in run.changes else root / run.name
 
 
 def charge_row(run: Run, case: MillCase) -> Row:
@@ -95,15 +89,16 @@ def beyond_limits(flow: Flow) -> Iterator[str]:
 
 
 def cost_row(run: Run, root: Path) -> Row:
-    """What a run took, and what Allrun --plan foretold where it was asked."""
-    folder = place_of(root, run)
-    case = MillCase(folder)
-    summaries = [one for _, one in case.record.summaries] if case.flow else []
-    memory = [one.get("memory_bytes") for one in (summaries if case.flow else [case.results or {}])]
-    row: Row = {"run": run.name, "cells": case.flow.mesh.cells if case.flow else None,
+    """What a run took, with all of its passes, and what Allrun --plan foretold where it was asked."""
+    cases = [MillCase(folder) for folder in folders_of(root, run)]
+    summaries = [one for case in cases if case.flow for _, one in case.record.summaries]
+    # The first case of a run that is not dry has the balls of its dry run
+    made = cases if run.way == "dry" else cases[1:]
+    memory = [one.get("memory_bytes") for one in summaries or [case.results or {} for case in cases]]
+    row: Row = {"run": run.name, "cells": cases[-1].flow.mesh.cells if cases[-1].flow else None,
                 "steps": sum(one["steps"] for one in summaries) or None,
                 "flow, min": sum(one["wall_s"] for one in summaries) / 60 or None,
-                "dry run, min": case.result("wall_time_s") / 60 if run.way == "dry" else None,
+                "dry run, min": sum(case.result("wall_time_s") for case in made) / 60 or None,
                 "memory, GB": max(memory) / 1e9 if all(memory) else None,
                 "disk, GB": sum(one.stat().st_size for one in (root / run.name).rglob("*")
                                 if one.is_file() and not one.is_symlink()) / 1e9}
@@ -146,7 +141,7 @@ def read_each(root: Path, chosen: Sequence[Run], read: Callable[[Run, Path], Any
     found, missing = {}, []
     for run in chosen:
         try:
-            found[run.name] = read(run, place_of(root, run))
+            found[run.name] = read(run, folders_of(root, run)[-1])
         except NotFinished as error:
             missing.append(f"not finished: {run.name}: {error}")
         except (RuntimeError, OSError) as error:

@@ -69,7 +69,8 @@ def published():
 
 def others():
     """Runs that change one thing of Beetstra_75_20 and fluid_75_20."""
-    yield Run("direct_75_20", 75, 20, "Beetstra", ("flow.coupling=direct",), "dry_75", copies=True)
+    for coupling in ("direct", "iterated"):
+        yield Run(f"{coupling}_75_20", 75, 20, "Beetstra", (f"flow.coupling={coupling}",), "dry_75", copies=True)
     for name, (changes, balls_see) in UNKNOWNS.items():
         yield Run(f"fluid_{name}", 75, 20, changes=changes)
         if balls_see:
