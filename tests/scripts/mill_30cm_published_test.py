@@ -32,6 +32,7 @@ ROOT = Path(__file__).resolve().parents[2]
 STUDY = ROOT / "cases" / "studies" / "mill_30cm_published"
 sys.path.insert(0, str(STUDY))
 
+import as_published  # noqa: E402, in the study's folder
 import flow_numbers  # noqa: E402, in the study's folder
 import mill_30cm_published as study  # noqa: E402
 import own_statements  # noqa: E402
@@ -235,9 +236,10 @@ class Bed(unittest.TestCase):
 class Statements(unittest.TestCase):
     def flow(self, **numbers):
         series = SimpleNamespace(times=np.arange(2, 5, 0.05), holdup=np.ones((60, 2)), height=np.full((60, 2), -0.05))
-        run = SimpleNamespace(series=series, speed=75, diameter=0.3, turn=1.036, name="run", steady=None)
+        run = SimpleNamespace(series=series, speed=75, diameter=0.3, turn=1.036, name="run", steady=None,
+                              feed=6.53e-5, first_slurry=3.71e-3)
         drops = dict.fromkeys(("p_rgh", "pressure", "level"), Mean(10.0, 1.0))
-        return SimpleNamespace(readings=run, run=RUNS["Beetstra_75_20"], **{"drops": drops, **numbers})
+        return SimpleNamespace(**{"readings": run, "run": RUNS["Beetstra_75_20"], "drops": drops, **numbers})
 
     def test_none_is_tested_without_runs(self):
         found = own_statements.own_verdicts({}, {})
@@ -265,10 +267,64 @@ class Statements(unittest.TestCase):
                                Surface(Mean(40, 1, 1), Mean(0.002), 44.0), series, Mean(0.01, 1e-4, 1),
                                Mean(-0.01, 1e-4, 1), ReynoldsNumbers(np.array([100.0, 400.0] * 2),
                                                                      np.array([1.0, 3.0] * 2), np.repeat([0, 1], 2)))
-        found = list(own_statements.felt({"direct_75_20": SimpleNamespace(readings=readings)}))
+        with mock.patch.object(own_statements, "why_withheld", lambda *_: ""):
+            found = list(own_statements.felt({"direct_75_20": SimpleNamespace(readings=readings)}))
         self.assertEqual([one.verdict for one in found], [CONFIRMED, CONTRADICTED, CONFIRMED])
         self.assertTrue(all("not steady by the report: direct_75_20/direct" in one.figure for one in found))
         self.assertEqual(list(own_statements.felt({})), [])
+        with mock.patch.object(own_statements, "why_withheld", lambda *_: "its force is too large"):
+            found = list(own_statements.felt({"direct_75_20": SimpleNamespace(readings=readings)}))
+        self.assertEqual([one.verdict for one in found], [UNDECIDED] * 3)
+        self.assertTrue(all(one.figure.endswith("; its force is too large") for one in found))
+
+    def test_a_drop_of_flows_with_other_feeds_is_undecided(self):
+        drops = dict.fromkeys(("p_rgh", "pressure", "level"), Mean(15.0, 1.0))
+        for feed, verdict in ((6.53e-5, CONFIRMED), (6.7e-5, UNDECIDED)):
+            more = self.flow(drops=drops)
+            more.readings.feed = feed
+            found = own_statements.drops({"Beetstra_75_20": self.flow(), "ErgunWenYu_75_20": more})
+            self.assertEqual({one.verdict for one in found if one.verdict != NOT_TESTED}, {verdict})
+        self.assertEqual(own_statements.unlike(self.flow().readings, more.readings),
+                         "their feeds differ, too: 65.3 and 67 ml/s")
+
+    def patch_of(self, name, first, published=("Beetstra_75_20", 3.71e-3)):
+        """Verdict on the dry patch of a flow that begins with so much slurry (m3), next to a published flow."""
+        flows = {one: self.flow(centre_share=Mean(0.9, 0.01, 2), top_velocity=Mean(0.01, 0.001, 2), run=RUNS[one],
+                                holdup=(volume, volume)) for one, volume in (published, (name, first))}
+        return next(one for one in own_statements.bed(flows) if one.runs == name)
+
+    def test_a_flow_that_begins_with_more_slurry_than_the_published_one_is_undecided(self):
+        for name, first, verdict in (("whole_75_20", 4.91e-3, UNDECIDED), ("whole_75_20", 4.1e-3, UNDECIDED),
+                                     ("whole_75_20", 4.0e-3, CONTRADICTED), ("layers_66", 3.3e-3, UNDECIDED),
+                                     ("seed", 3.72e-3, CONTRADICTED), ("ErgunWenYu_75_20", 4.91e-3, CONTRADICTED)):
+            with self.subTest(name=name, first=first):
+                self.assertEqual(self.patch_of(name, first).verdict, verdict)
+        self.assertIn("; it begins with 4.91 l of slurry, Beetstra_75_20 with 3.71",
+                      self.patch_of("whole_75_20", 4.91e-3).figure)
+        # Slower mills begin with another volume, and those without balls
+        for other in ("Beetstra_60_20", "fluid_75_20"):
+            found = self.patch_of("seed", 3.72e-3, (other, 3.72e-3))
+            self.assertEqual(found.verdict, UNDECIDED)
+            self.assertIn("no published flow with balls at 75 % is complete", found.figure)
+
+    def test_balls_that_feel_another_force_than_the_flows_are_undecided(self):
+        folder = Path(self.enterContext(tempfile.TemporaryDirectory()))
+        flow = self.flow(run=RUNS["direct_75_20"], holdup=(3.71e-3, 3.5e-3), case=SimpleNamespace(coupled=folder))
+        flows = {"Beetstra_75_20": self.flow(holdup=(3.71e-3, 3.35e-3)), "direct_75_20": flow}
+
+        def reason(**content):
+            (folder / "coupling.json").write_text(json.dumps({"format": "millfoam-coupling", **content}))
+            return as_published.why_withheld(flow, flows)
+        self.assertEqual(reason(force_unbalanced=0.015, force_unbalanced_reach=0.01), "")
+        self.assertIn("differs from what its own balance of momentum leaves for them by 9.5 %",
+                      reason(force_unbalanced=0.095, force_unbalanced_reach=0.01))
+        self.assertIn("undecided: with 95 % confidence", reason(force_unbalanced=0.015, force_unbalanced_reach=0.05))
+        for old in ({}, {"force_unbalanced": None}):
+            self.assertIn("not known: its slurryBalance has no force_balance_x_N", reason(**old))
+        flow.case.coupled = None
+        self.assertIn("there is no coupling.json", as_published.why_withheld(flow, flows))
+        flow.run = RUNS["Beetstra_75_20"]
+        self.assertEqual(as_published.why_withheld(flow, flows), "")
 
     def profile_of(self, height, noise=1e-4, turns=3):
         """Profile by read_profile of heights (z -> m) that differ from turn to turn by a noise (m)."""
@@ -329,15 +385,19 @@ class Statements(unittest.TestCase):
 
     def test_maps_of_the_balls_are_compared_with_the_dry_run(self):
         dry = {"dry_75": "dry", "dry_seed": "seed"}
-        flows = {"direct_75_20": SimpleNamespace(case="felt")}
+        flows = {"direct_75_20": SimpleNamespace(case="felt", withheld="")}
         apart = {"felt": Mean(0.03, 0.001, 2), "seed": Mean(0.01, 0.001, 2), "near": Mean(0.025, 0.002, 2)}
         with mock.patch.object(own_statements, "charge_apart", lambda one, _: (apart[one], "far")), \
-                mock.patch.object(own_statements, "noise", lambda _: 0.002):
+                mock.patch.object(own_statements, "noise", lambda _: 0.002), \
+                mock.patch.object(own_statements, "why_withheld", lambda flow, _: flow.withheld):
             found = list(own_statements.charges(flows, dry))
             missing = list(own_statements.charges(flows, {"dry_seed": "seed"}))
-            near = list(own_statements.charges({"direct_75_20": SimpleNamespace(case="near")}, dry))
+            near = list(own_statements.charges({"direct_75_20": SimpleNamespace(case="near", withheld="")}, dry))
+            held = list(own_statements.charges({"direct_75_20": SimpleNamespace(case="felt", withheld="why")}, dry))
         self.assertEqual([one.verdict for one in found], [CONTRADICTED, CONFIRMED])
         self.assertEqual(near[0].verdict, UNDECIDED)
+        self.assertEqual([one.verdict for one in held], [UNDECIDED, CONFIRMED])
+        self.assertTrue(held[0].figure.endswith("; why"))
         self.assertIn("far (limit 2 % of solidity; halves of dry_75 differ by 0.20 %)", found[0].figure)
         self.assertEqual([one.figure for one in missing], ["not complete: dry_75"] * 2)
 

@@ -208,6 +208,23 @@ class WithBalls(unittest.TestCase):
         self.assertEqual(verdicts_of(statements.concentration_raises, *runs, *slow),
                          [CONFIRMED, NOT_TESTED, CONTRADICTED])
 
+    def test_a_concentration_with_another_feed_or_slurry_is_undecided(self):
+        def verdicts(feeds, slurries=(None, None)):
+            runs = [run(law=law, solids=solids, series=series(height), feed=feed, first_slurry=slurry)
+                    for law, heights in (("Beetstra", (-0.05, -0.04)), ("ErgunWenYu", (-0.048, -0.039)))
+                    for solids, feed, slurry, height in zip((20, 40), feeds, slurries, heights)]
+            return [[one for one in statement(Runs(runs)) if one.verdict != NOT_TESTED]
+                    for statement in (statements.concentration_raises, statements.drag_raises)]
+        alike = verdicts((6.53e-5, 6.57e-5), (3.71e-3, 3.72e-3))
+        self.assertEqual([one.verdict for part in alike for one in part], [CONFIRMED] * 4)
+        for other, words in ((verdicts((6.53e-5, 9.32e-5)), "their feeds differ, too: 65.3 and 93.2 ml/s"),
+                             (verdicts((6.53e-5, 6.53e-5), (3.71e-3, 4.91e-3)),
+                              "their slurries at first differ, too: 3.71 and 4.91 l")):
+            raises, (law, shrinks) = other
+            self.assertEqual([one.verdict for one in (*raises, shrinks)], [UNDECIDED] * 3)
+            self.assertTrue(all(words in one.figure for one in raises))
+            self.assertEqual(law.verdict, CONFIRMED)  # both laws have the same feed and slurry
+
     def test_runs_that_the_report_does_not_call_steady_are_named(self):
         runs = (run(law="Beetstra", series=series(-0.05), steady="holds"),
                 run(law="Beetstra", solids=40, series=series(-0.04), steady="fails"))

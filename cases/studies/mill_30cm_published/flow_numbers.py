@@ -21,7 +21,7 @@ from millstudies.compared_runs import height
 from millstudies.run_readings import RunReadings
 from millstudies.statements import read
 
-from runs import Run
+from runs import DIRECT, ITERATED, Run
 
 TOP = 0.1  # share of the pixels with slurry, by height, that is the top of its shoulder
 NEAR = 2  # pixels about the centre of circulation
@@ -69,9 +69,9 @@ def folders_of(root: Path, run: Run) -> list[Path]:
     """Folders of all flows of a run, the last of which has its results: `direct` of balls and slurry at the same time,
     and those of all passes of balls and slurry in turn. NotFinished if passes are to come."""
     folder = root / run.name
-    if "flow.coupling=direct" in run.changes:
+    if DIRECT in run.changes:
         return [folder / "direct"]
-    if "flow.coupling=iterated" not in run.changes:
+    if ITERATED not in run.changes:
         return [folder]
     if not (folder / "coupling.json").is_file():
         raise NotFinished("no pass of balls that feel the slurry is complete" if folder.is_dir() else "not begun")

@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Verdicts on published statements that only this study can read: the humps of the profile as it was published, the
 pressure's drop by each definition, the dry patch, the shoulder's top, and balls that feel the slurry; and whether
-another random insertion of the balls changes the charge."""
+another random insertion of the balls changes the charge. Of a flow that may not be judged as the published one
+(as_published) all are undecided."""
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 
 import numpy as np
 
@@ -13,10 +15,12 @@ from millfoam.readings.compare import difference
 from millfoam.readings.free_surface import toe_and_shoulder
 from millfoam.readings.means import Mean, of_reading, with_error
 from millstudies.axial_slices import PRESSURES, Profile, jackknife
-from millstudies.compared_runs import CONFIRMED, CONTRADICTED, NOT_TESTED, UNDECIDED, Runs, Verdict, by_sign, judged
+from millstudies.compared_runs import (CONFIRMED, CONTRADICTED, NOT_TESTED, UNDECIDED, Runs, Verdict, by_sign, judged,
+                                       unlike, withheld)
 from millstudies.statements import (about_twice, circulation, larger_drop, maxima, millimetres, ratio_words,
                                     reynolds_below, surface_follows)
 
+from as_published import why_withheld
 from flow_numbers import Flow
 
 DRY = 0.5  # share of slurry in the fluid below which the centre of circulation is a dry patch
@@ -94,7 +98,8 @@ def drops(flows: Flows) -> Iterator[Verdict]:
     for name, words in PRESSURES.items():
         def larger(less: Flow, more: Flow, name: str = name) -> tuple[str, str]:
             small, large = less.drops[name], more.drops[name]
-            return larger_drop(small, large), f"{large.text('Pa')} compared with {small.text('Pa')}"
+            return withheld(larger_drop(small, large), f"{large.text('Pa')} compared with {small.text('Pa')}",
+                            unlike(less.readings, more.readings))
 
         for solids in (20, 30, 40):
             yield tested(f"the drop of the {words} is clearly larger with Ergun/Wen-Yu".replace("the p_rgh", "p_rgh"),
@@ -104,11 +109,13 @@ def drops(flows: Flows) -> Iterator[Verdict]:
 def bed(flows: Flows) -> Iterator[Verdict]:
     """A dry patch at the centre of circulation; slurry returns at the top of the shoulder: of each flow with balls."""
     def patch(flow: Flow) -> tuple[str, str]:
-        return by_sign(Mean(DRY) - flow.centre_share), (
-            f"slurry takes {flow.centre_share.text('%', 100)} of the fluid there")
+        return withheld(by_sign(Mean(DRY) - flow.centre_share),
+                        f"slurry takes {flow.centre_share.text('%', 100)} of the fluid there",
+                        why_withheld(flow, flows))
 
     def returns(flow: Flow) -> tuple[str, str]:
-        return by_sign(Mean(0.0) - flow.top_velocity), f"{flow.top_velocity.text('mm/s', 1e3)} (+: to the discharge)"
+        return withheld(by_sign(Mean(0.0) - flow.top_velocity),
+                        f"{flow.top_velocity.text('mm/s', 1e3)} (+: to the discharge)", why_withheld(flow, flows))
 
     for name in [name for name, flow in flows.items() if flow.run.law] or ["Beetstra_75_20"]:
         yield tested("the charge has a dry patch at its centre of circulation", flows, (name,), patch)
@@ -118,9 +125,11 @@ def bed(flows: Flows) -> Iterator[Verdict]:
 def felt(flows: Flows) -> Iterator[Verdict]:
     """What is published of each flow with balls, of the one whose balls feel the slurry."""
     if FELT in flows:
-        readings = flows[FELT].readings
+        readings, reason = flows[FELT].readings, why_withheld(flows[FELT], flows)
         for statement in (surface_follows, reynolds_below, circulation):
-            yield from (one for one in statement(Runs([readings])) if one.runs == readings.name)
+            for one in (one for one in statement(Runs([readings])) if one.runs == readings.name):
+                verdict, figure = withheld(one.verdict, one.figure, reason)
+                yield replace(one, verdict=verdict, figure=figure)
 
 
 def turns_of(case: MillCase) -> list[SolidsMap]:
@@ -171,9 +180,9 @@ def charges(flows: Flows, dry: Cases) -> Iterator[Verdict]:
             yield Verdict(statement, f"{name}, dry_75", NOT_TESTED, "not complete: " + ", ".join(gone))
             continue
         apart, words = charge_apart({**dry, **wet}[name], dry["dry_75"])
-        yield Verdict(statement, f"{name}, dry_75", by_sign(Mean(HARDLY) - apart),
-                      f"{words} (limit {100 * HARDLY:g} % of solidity; halves of dry_75 differ by "
-                      f"{100 * noise(dry['dry_75']):.2f} %)")
+        yield Verdict(statement, f"{name}, dry_75", *withheld(
+            by_sign(Mean(HARDLY) - apart), f"{words} (limit {100 * HARDLY:g} % of solidity; halves of dry_75 differ by "
+            f"{100 * noise(dry['dry_75']):.2f} %)", why_withheld(flows[name], flows) if name in flows else ""))
 
 
 def own_verdicts(flows: Flows, dry: Cases) -> list[Verdict]:

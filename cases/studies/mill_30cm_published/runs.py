@@ -17,6 +17,7 @@ UNKNOWNS = {
     "layers_66": (("resolution.layers=66",), False),
 }
 SEED = "dem.seed=20124"
+DIRECT, ITERATED = "flow.coupling=direct", "flow.coupling=iterated"
 # One field of the charge for the whole flow: of all that follows its first turn and a half
 WHOLE = ("averages.start=1.4", "averages.window=3.6", "flow.out_of_range=hold")
 # Coarse and short, but a turn of the mill is averaged
@@ -47,6 +48,11 @@ class Run:
             return "dry"
         return "alone" if self.law is None else "copies" if self.copies else "takes"
 
+    @property
+    def feels_slurry(self):
+        """Whether its balls feel the slurry, at the same time as the flow or in turn with it."""
+        return not {DIRECT, ITERATED}.isdisjoint(self.changes)
+
     def settings(self, quick):
         """What it changes in the mill's file, as PATH=VALUE; quick: of the coarse and short form."""
         slurry = f"variant=slurry_{self.solids or 20}_speed_{self.speed}"
@@ -69,8 +75,8 @@ def published():
 
 def others():
     """Runs that change one thing of Beetstra_75_20 and fluid_75_20."""
-    for coupling in ("direct", "iterated"):
-        yield Run(f"{coupling}_75_20", 75, 20, "Beetstra", (f"flow.coupling={coupling}",), "dry_75", copies=True)
+    for name, coupling in (("direct_75_20", DIRECT), ("iterated_75_20", ITERATED)):
+        yield Run(name, 75, 20, "Beetstra", (coupling,), "dry_75", copies=True)
     for name, (changes, balls_see) in UNKNOWNS.items():
         yield Run(f"fluid_{name}", 75, 20, changes=changes)
         if balls_see:

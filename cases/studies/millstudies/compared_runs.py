@@ -2,9 +2,10 @@
 """Runs of the 30 cm mill and of the 12 cm mill's slice for comparisons, whether they are steady, and verdicts.
 
 Verdicts: `confirmed` and `contradicted` if the difference is one with 95 % confidence (Mean.sign), `undecided` if it is
-not or the height of a run drifts (see `unsteady`), `not tested` if a run is missing, which the verdict names,
-and `depends on the definition` where one definition of a number confirms what another one contradicts. A verdict
-on runs that the report does not call steady says so. Runs of the 30 cm mill count if they reach LATEST."""
+not, if the height of a run drifts (see `unsteady`), or if runs differ in more than what the statement names (see
+`unlike`), `not tested` if a run is missing, which the verdict names, and `depends on the definition` where one
+definition of a number confirms what another one contradicts. A verdict on runs that the report does not call steady
+says so. Runs of the 30 cm mill count if they reach LATEST."""
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -15,6 +16,8 @@ from millfoam.readings.means import BLOCKS, mean_of_series
 from millfoam.report.steadiness import halves
 
 LATEST = 4.5  # flow time that a run of the 30 cm mill must have reached, s
+# Share by which feeds, or slurries at first, may differ. Other random places of the balls change the latter by 0.3 %
+ALIKE = 0.01
 LARGE, SLICE = "30 cm mill", "12 cm slice"
 CONFIRMED, CONTRADICTED, UNDECIDED, NOT_TESTED = "confirmed", "contradicted", "undecided", "not tested"
 
@@ -125,6 +128,24 @@ def unsteady(run):
     if not np.isfinite(drift.error):
         return f"{run.name}: {len(times)} times are too few to find a drift"
     return f"{run.name}: its height drifts by {drift.text('mm', 1e3, '.2f')} between the halves" if drift.sign else ""
+
+
+def unlike(*runs):
+    """Why the slurry of runs cannot show what only the thing does that a statement names, its concentration or the law
+    of its drag: their feeds or their slurries at first differ by more than ALIKE, which moves it, too. An empty text if
+    they do not; what is not known counts as alike."""
+    reasons = []
+    for name, what, scale, unit in (("feed", "feeds", 1e6, "ml/s"), ("first_slurry", "slurries at first", 1e3, "l")):
+        found = [getattr(run, name) for run in runs if getattr(run, name) is not None]
+        if found and max(found) - min(found) > ALIKE * max(found):
+            reasons.append(f"their {what} differ, too: {' and '.join(f'{scale * one:.3g}' for one in found)} {unit}")
+    return "; ".join(reasons)
+
+
+def withheld(verdict, figure, reason):
+    """A verdict and its number; if there is a reason and it was tested, `undecided`, with the reason after the
+    number."""
+    return (UNDECIDED, f"{figure}; {reason}") if reason and verdict != NOT_TESTED else (verdict, figure)
 
 
 def judged(verdict, figure, *runs):

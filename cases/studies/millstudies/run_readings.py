@@ -55,7 +55,8 @@ class RunReadings:
     """A run: name, with its parent folder's; mill's diameter (m); speed (% of critical); law of the drag, None without
     balls; slurry's solids (% by mass, None for a slurry that is not published); last flow time (s); whether the mill
     has two ends; time of a turn (s); steady, the state of the report's check whether the flow is steady, None if it was
-    not made.
+    not made; feed (m3/s, 0 of a closed mill) and first_slurry, that in the mill at the first step (m3), None where they
+    are not known.
 
     Its readings, None where they failed: surface; series, AxialSeries of the averaged time; toe and shoulder, velocity
     along the axis of the slurry's halves there (m/s, to the discharge positive); reynolds,
@@ -75,6 +76,8 @@ class RunReadings:
     shoulder: Mean = None
     reynolds: ReynoldsNumbers = None
     failures: list = field(default_factory=list)
+    feed: float = None
+    first_slurry: float = None
 
 
 def surface_line(slurry, inner):
@@ -145,7 +148,8 @@ def read_run(case):
     name = f"{case.folder.resolve().parent.name}/{case.name}"
     found = RunReadings(name, 2 * case.radius, round(100 * case.mill.critical_share), case.law,
                         CONCENTRATIONS.get(round(case.mill.slurry("density_kg_m3"))), case.last, not case.is_slice,
-                        case.turn)
+                        case.turn, feed=case.feed or 0.0,
+                        first_slurry=None if case.balance is None else float(case.balance["holdUp"][0]))
 
     def attempt(what, read):
         try:

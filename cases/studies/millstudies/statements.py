@@ -14,7 +14,7 @@ from millfoam.report.steadiness import flow_steadiness
 
 from .axial_slices import jackknife
 from .compared_runs import (CONFIRMED, CONTRADICTED, LARGE, NOT_TESTED, SLICE, UNDECIDED, Runs, Verdict, Which,
-                            all_positive, by_sign, by_turn, height, judged, over_turns, unread)
+                            all_positive, by_sign, by_turn, height, judged, over_turns, unlike, unread, withheld)
 from .run_readings import read_run
 
 # Of a flat surface, at most: degrees; deviation from its line over the mill's diameter
@@ -141,7 +141,8 @@ def lacking(runs):
 
 
 def pair(runs, statement, first, second, judge):
-    """Verdict of judge(run, run) on two runs (Which); `not tested` if one is missing, or they have other slices."""
+    """Verdict of judge(run, run) on two runs (Which), undecided if they are `unlike`; `not tested` if one is missing,
+    or they have other slices."""
     found = [runs.find(which) for which in (first, second)]
     gone = [unread(run, runs, which) for run, which in zip(found, (first, second)) if not run or not run.series]
     names = f"{first}; {second}"
@@ -150,7 +151,7 @@ def pair(runs, statement, first, second, judge):
                 f"{1e3 * one.series.z[0]:.1f} mm" for one in found] + ["expected the same slices"]
     if gone:
         return Verdict(statement, names, NOT_TESTED, "; ".join(gone))
-    return Verdict(statement, names, *judged(*judge(*found), *found))
+    return Verdict(statement, names, *judged(*withheld(*judge(*found), unlike(*found)), *found))
 
 
 def same_slices(first, second):
@@ -201,7 +202,8 @@ def drag_difference_shrinks(runs, four):
     rises = [height(found[second]) - height(found[second - 1]) for second in (1, 3)]
     figure = " and ".join(rise.text("mm", 1e3, ".2f") for rise in rises)
     sizes = [rise if rise.value >= 0 else -rise for rise in rises]
-    return Verdict(statement, names, *judged(by_sign(sizes[0] - sizes[1]), figure, *found))
+    verdict = withheld(by_sign(sizes[0] - sizes[1]), figure, unlike(*found))
+    return Verdict(statement, names, *judged(*verdict, *found))
 
 
 def reynolds_below(runs):
