@@ -16,11 +16,11 @@ import numpy as np
 from millfoam.files.mill import Mill
 from millfoam.readings import slurry_over_time
 from millfoam.readings.axial import AxialSeries, gaussians
-from millfoam.readings.means import Mean, block_mean, series_mean
+from millfoam.readings.means import Mean, block_mean, by_resolution, series_mean
 from millstudies import own_mill, run_readings, statements
 from millstudies.compared_runs import CONFIRMED, CONTRADICTED, NOT_TESTED, UNDECIDED, Runs, height, unsteady
 from millstudies.mill_runs import OTHER_MESH
-from millstudies.run_readings import ReynoldsNumbers, RunReadings, Surface, surface_line
+from millstudies.run_readings import ReynoldsNumbers, RunReadings, Surface, surface_line, surface_resolution
 from slurry_on_maps_test import RADIUS, WALL, slurry_map
 
 Z = np.linspace(0.005, 0.3, 33)
@@ -78,6 +78,22 @@ class Flat(unittest.TestCase):
                                 (Mean(2.0, 0.1, 1), Mean(0.005, 2e-4, 1)), (Mean(2.0, np.nan, 0), Mean(0.003))):
             one = run(surface=Surface(tilt, deviation))
             self.assertEqual(verdicts_of(statements.flat_without_balls, one), [NOT_TESTED, UNDECIDED])
+
+    def test_a_surface_that_is_equal_in_all_turns_is_known_to_its_voxels(self):
+        # Voxels of 9 mm over 0.23 m, of a mill of 0.3 m: limits of 6 mm and 5 degrees
+        resolution = surface_resolution(0.3 / 33, 0.23)
+        np.testing.assert_allclose(resolution, (1.31, 0.00152), rtol=0.01)
+        for tilt, deviation, verdict in ((1.0, 0.0022, CONFIRMED), (1.0, 0.0040, UNDECIDED), (1.0, 0.0080, UNDECIDED),
+                                         (1.0, 0.0095, CONTRADICTED), (3.0, 0.0022, UNDECIDED),
+                                         (8.0, 0.0022, CONTRADICTED)):
+            with self.subTest(tilt=tilt, deviation=deviation):
+                found = [by_resolution(block_mean([value] * 2), least)
+                         for value, least in zip((tilt, deviation), resolution)]
+                self.assertEqual(verdicts_of(statements.flat_without_balls, run(surface=Surface(*found))),
+                                 [NOT_TESTED, verdict])
+        # Without a resolution, no error is no certainty
+        unknown = Surface(Mean(1.0), block_mean([0.0022] * 2))
+        self.assertEqual(verdicts_of(statements.flat_without_balls, run(surface=unknown)), [NOT_TESTED, UNDECIDED])
 
     def test_a_run_that_is_short_or_missing_is_reported(self):
         short = run(60, last=3.4, surface=Surface(Mean(0), Mean(0)))
@@ -255,6 +271,16 @@ class WithBalls(unittest.TestCase):
             shares = np.array([[first, 1 - first], [0.8, 0.2]])
             one = run(law="Beetstra", reynolds=ReynoldsNumbers(np.tile([50.0, 900.0], 2), shares.ravel(),
                                                                np.repeat([0, 1], 2)))
+            self.assertEqual(verdicts_of(statements.reynolds_below, one)[0], verdict)
+
+    def test_a_share_of_few_cells_is_known_to_one_of_them(self):
+        # In both turns 52 % of the slurry is below the limit, in a single cell or in 52 of 100
+        for numbers, slurry, verdict in (([50.0, 900.0], [0.52, 0.48], UNDECIDED),
+                                         ([50.0] * 52 + [900.0] * 48, [0.01] * 100, CONFIRMED)):
+            one = run(law="Beetstra", reynolds=reynolds_by_turn(np.array(numbers), np.array(slurry), 2))
+            share = one.reynolds.share_below(150)
+            self.assertAlmostEqual(share.value, 0.52)
+            self.assertAlmostEqual(share.error, slurry[0] / 2 / np.sqrt(12))
             self.assertEqual(verdicts_of(statements.reynolds_below, one)[0], verdict)
 
     def test_reynolds_numbers_belong_to_the_last_whole_turns(self):
@@ -470,6 +496,30 @@ class Reading(unittest.TestCase):
             tilt, deviation, _ = surface_line(level, RADIUS - WALL)
             self.assertAlmostEqual(tilt, sign * 25, delta=0.5)
             self.assertLess(deviation, 0.001)
+
+    def test_a_surface_is_off_by_no_more_than_its_resolution(self):
+        # Straight surfaces at random heights and tilts, whose deviation from a line is 0
+        random, step = np.random.default_rng(3), 2 * RADIUS / 150
+        found = []
+        for tilt, level in zip(random.uniform(-5, 5, 200), random.uniform(-0.06, 0.0, 200)):
+            slope = np.tan(np.radians(tilt))
+            read = surface_line(slurry_map(lambda x, y, slope=slope, level=level: np.where(
+                y < -slope * x + level, 1.0, 0.0)), RADIUS - WALL)
+            resolution = surface_resolution(step, read[2][1] - read[2][0])
+            found.append(((read[0] - tilt) / resolution[0], read[1] / resolution[1]))
+        for off in np.abs(found).T:
+            self.assertLess(np.mean(off > 1.96), 0.05)
+
+    def test_equal_maps_have_the_error_of_their_pixels(self):
+        level = slurry_map(lambda x, y: np.where(y < -0.02, 1.0, 0.0))
+        case = SimpleNamespace(radius=RADIUS, lifter_height=WALL / slurry_over_time.RING)
+        found = run_readings.RunReadings("a", 0.3, 75, None, 20, 5.0, False, 1.0)
+        with mock.patch.object(run_readings, "slurry_blocks", lambda _: [level] * 2):
+            run_readings.read_maps(case, found)
+        step, width = 2 * RADIUS / 150, 2 * np.sqrt((RADIUS - WALL)**2 - 0.02**2)
+        self.assertEqual((found.surface.tilt.freedom, found.surface.deviation.freedom), (np.inf, np.inf))
+        self.assertAlmostEqual(found.surface.deviation.error, step / 6)
+        self.assertAlmostEqual(found.surface.tilt.error, np.degrees(step / width / np.sqrt(3)), delta=0.01)
 
     def test_a_wavy_surface_deviates(self):
         wavy = slurry_map(lambda x, y: np.where(y < 0.01 * np.sin(100 * x), 1.0, 0.0))

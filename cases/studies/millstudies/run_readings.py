@@ -9,7 +9,7 @@ from millfoam.readings import slurry_on_maps
 from millfoam.readings.axial import AxialSeries
 from millfoam.readings.batches import whole_turns
 from millfoam.readings.free_surface import free_surface
-from millfoam.readings.means import BLOCKS, Mean, block_mean
+from millfoam.readings.means import BLOCKS, Mean, block_mean, by_resolution
 from millfoam.readings.slurry_in_cells import read_frame, reynolds
 from millfoam.readings.slurry_over_time import read_series, ring_depth, slurry_blocks, slurry_way
 
@@ -21,8 +21,8 @@ CONCENTRATIONS = {1148: 20, 1239: 30, 1346: 40, 1474: 50, 1628: 60}
 @dataclass
 class Surface:
     """Slurry's free surface across the mill: tilt (degrees, positive where the left side is higher) of the straight
-    line through it, its deviation from that line (root mean square, m), and over the same width the tilt of the
-    charge, if there is one."""
+    line through it, its deviation from that line (root mean square, m), both with the error of surface_resolution, and
+    over the same width the tilt of the charge, if there is one."""
     tilt: Mean
     deviation: Mean
     charge_tilt: float = None
@@ -38,9 +38,14 @@ class ReynoldsNumbers:
     parts: np.ndarray
 
     def share_below(self, limit):
-        """Share of the slurry at numbers below a limit, mean over the parts with its error (Mean)."""
-        return block_mean([np.average(self.values[part] < limit, weights=self.volumes[part])
-                           for part in (self.parts == number for number in range(self.parts.max() + 1)) if part.any()])
+        """Share of the slurry at numbers below a limit, mean over the parts with its error (Mean). A cell is below it
+        or not as a whole, so the share is known to one cell's share of the slurry, that of the largest
+        (by_resolution)."""
+        chosen = self.volumes[self.parts >= 0]
+        return by_resolution(block_mean([
+            np.average(self.values[part] < limit, weights=self.volumes[part])
+            for part in (self.parts == number for number in range(self.parts.max() + 1)) if part.any()]),
+            float(chosen.max() / chosen.sum() / np.sqrt(12)))
 
     @property
     def median(self):
@@ -102,6 +107,17 @@ def surface_line(slurry, inner):
     return float(-np.degrees(np.arctan(slope))), float(np.std(y - slope * x - height)), (x.min(), x.max())
 
 
+def surface_resolution(step, width):
+    """Standard deviations of a surface_line's tilt (degrees) and RMSD (m) of a surface over `width` (m) that pixels of
+    a height `step` (m) round.
+
+    Each point of the surface is off by up to step/2, evenly distributed: by step/sqrt(12) in the root mean square.
+    Errors of neighbours may be alike. By the triangle inequality, the RMSD is off by no more than that root mean
+    square, and by Cauchy's, the slope by no more than it over that of the points' x about their mean, which is
+    width/sqrt(12) or more. Of what may be anywhere within ± a, the standard deviation is a/sqrt(3)."""
+    return float(np.degrees(step / width / np.sqrt(3))), step / 6
+
+
 def charge_tilt(charge, radius, span):
     """Tilt (degrees, the left side up positive) of the straight line through a SolidsMap's free surface over a span of
     x (m)."""
@@ -118,8 +134,9 @@ def read_maps(case, found):
     inner = case.radius - ring_depth(case.lifter_height)
     maps = list(slurry_blocks(case))
     lines = [surface_line(one, inner) for one in maps]
-    tilt, deviation = (block_mean([line[k] for line in lines]) for k in (0, 1))
     span = max(line[2][0] for line in lines), min(line[2][1] for line in lines)
+    resolution = surface_resolution(maps[0].y[1] - maps[0].y[0], span[1] - span[0])
+    tilt, deviation = (by_resolution(block_mean([line[k] for line in lines]), resolution[k]) for k in (0, 1))
     found.surface = Surface(tilt, deviation, charge_tilt(case.charge, case.radius, span) if found.law else None)
     if found.ends:
         way = slurry_way(maps, case.radius, case.lifter_height)

@@ -18,18 +18,21 @@ CORRELATED = 12  # turns; of fewer, the correlation of neighbours is hardly know
 @dataclass(frozen=True)
 class Mean:
     """A mean over time; its standard error, which is NaN for fewer than two blocks; and the error's degrees of freedom:
-    one less than the blocks, infinity for an error that is exact."""
+    one less than the blocks, infinity for an error that is exact. An error of 0 is exact only with infinite freedom.
+    With less, the blocks' readings are equal: they are too coarse to show an error, see by_resolution."""
     value: float
     error: float = 0.0
     freedom: float = np.inf
 
     def __add__(self, other: "Mean") -> "Mean":
-        """Sum of two means with independent errors. Degrees of freedom: B. L. Welch 1947, Biometrika 34:28."""
+        """Sum of two means with independent errors. Degrees of freedom: B. L. Welch 1947, Biometrika 34:28; the fewer
+        of both where both errors are 0."""
         parts = [(one.error**2, one.freedom) for one in (self, other) if one.error > 0]
         variance = sum(part for part, _ in parts)
         inexact = sum(part**2 / freedom for part, freedom in parts)
         return Mean(self.value + other.value, float(np.hypot(self.error, other.error)),
-                    variance**2 / inexact if inexact > 0 else np.inf)
+                    variance**2 / inexact if inexact > 0 else np.inf if variance > 0 else
+                    min(self.freedom, other.freedom))
 
     def __neg__(self) -> "Mean":
         return Mean(-self.value, self.error, self.freedom)
@@ -49,8 +52,10 @@ class Mean:
 
     @property
     def sign(self) -> int:
-        """1 or -1 if the value is further from zero than `reach`, otherwise 0, also if the error is not known."""
-        return int(np.sign(self.value)) if abs(self.value) > self.reach else 0
+        """1 or -1 if the value is further from zero than `reach`, otherwise 0, also if the error is not known, or is 0
+        and not exact."""
+        known = self.error > 0 or np.isinf(self.freedom)
+        return int(np.sign(self.value)) if known and abs(self.value) > self.reach else 0
 
     def text(self, unit: str, scale: float = 1.0, form: str = ".1f") -> str:
         """Value and error times `scale`, in a format, with a unit: `1.2 ± 0.1 mm`."""
@@ -86,6 +91,16 @@ def block_mean(values: ArrayLike) -> Mean:
     values = np.asarray(values, dtype=float)
     count = len(values)
     return Mean(float(values.mean()), float(values.std(ddof=1) / np.sqrt(count)) if count > 1 else np.nan, count - 1)
+
+
+def by_resolution(mean: Mean, deviation: float) -> Mean:
+    """A mean of readings that are known only to a resolution, with the standard deviation that this gives to a single
+    one: of values that are rounded to steps h, h/sqrt(12), that of a uniform distribution of width h. Readings of all
+    blocks may be rounded alike, so more of them do not make it smaller. It is the least error, exact, that the mean
+    has: it is taken where its `reach` is more than that of the error over the blocks, which may be 0. The two are not
+    added: with few blocks, the sum would have more degrees of freedom and a smaller reach."""
+    least = Mean(mean.value, deviation)
+    return least if least.reach > mean.reach else mean
 
 
 def deviation_freedom(correlation: float, count: int) -> float:
