@@ -179,7 +179,7 @@ class Differences(unittest.TestCase):
         self.assertTrue(np.isnan(by_resolution(one, 0.1).error))
 
     def test_rounding_to_steps_has_the_deviation_of_a_uniform_distribution(self):
-        # The same number in both turns, as a surface by voxels. With this error, 5 % or fewer are wrongly apart from the
+        # The same number in both turns, as a surface by voxels. With this error, 5 % or fewer are wrongly apart from
         # truth
         random = np.random.default_rng(7)
         true = random.uniform(0, 10, 4000)

@@ -2,7 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Power of charge, slurry and drive: which time it is of, and its error, for balls that feel the slurry and that do
 not."""
+import re
 import unittest
+from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
@@ -89,6 +91,14 @@ class Powers(unittest.TestCase):
         self.assertAlmostEqual(mill_power.drive_power(dry).value, 4.5, places=9)
         self.assertAlmostEqual(mill_power.drive_power(dry).error, 0.04, places=9)
         self.assertAlmostEqual(mill_power.slurry_power(dry).value, 1.5, places=9)
+
+    def test_of_results_have_the_freedom_of_the_batches_of_milldem(self):
+        source = Path(__file__).parents[2] / "dem_driver" / "steady_state.cpp"
+        batches = int(re.search(r"size_t batches = (\d+);", source.read_text())[1])
+        found = mill_power.result_power(case(None))
+        # Of the batches' distances from a straight line, which takes two
+        self.assertEqual((found.value, found.error, found.freedom), (3.0, 0.04, batches - 2))
+        self.assertEqual(mill_power.drive_power(case(None)).freedom, batches - 2)  # the slurry's turns are equal
 
     def test_of_fewer_turns_than_three_are_not_known(self):
         for kind in ("flow", "slurry", None):

@@ -18,6 +18,7 @@ from millfoam.files.data_files import read_json, write_csv
 from millfoam.files.mill_case import MillCase
 from millfoam.readings.charge import charge_with_errors
 from millfoam.readings.means import Mean, of_reading
+from millfoam.readings.mill_power import result_power
 from millfoam.readings.slurry_conservation import AS_ASKED, CONSERVED
 from millfoam.report.build import compare_cases
 from millstudies.axial_slices import PRESSURES, Profile
@@ -40,7 +41,7 @@ def charge_row(run: Run, case: MillCase) -> Row:
     def mean(name: str, k: int = 0) -> Mean:
         return of_reading(found[name], k)
     return {"run": run.name, "speed, %": run.speed, "steady from, s": case.result("steady_from_s"),
-            **freedom_columns("power, W", Mean(case.result("power_W"), case.result("power_error_W"))),
+            **freedom_columns("power, W", result_power(case)),
             **freedom_columns("centre of circulation x, mm", mean("centre", 0), 1e3),
             **freedom_columns("centre of circulation y, mm", mean("centre", 1), 1e3),
             **freedom_columns("toe, deg", mean("ends", 0)), **freedom_columns("shoulder, deg", mean("ends", 1)),

@@ -23,7 +23,7 @@ from millfoam.files.slurry_file import SlurryMap
 from millfoam.plots.mill_plots import draw_outline
 from millfoam.readings import power_models
 from millfoam.readings.means import Mean
-from millfoam.readings.mill_power import given_power
+from millfoam.readings.mill_power import given_power, result_power
 from millfoam.readings.slurry_on_maps import pool, solidity_at_pixels
 from millfoam.readings.slurry_over_time import mean_slurry, slurry_blocks
 from millfoam.report.charge_checks import charge_steadiness
@@ -116,7 +116,7 @@ def read_study(folder: Path) -> Study:
             runs.append(read_run(folder / match[0], charge))
         except (RuntimeError, OSError) as error:
             missing.append(f"{match[0]}: {error}")
-    return Study(folder.name, dry.mill, Mean(dry.result("power_W"), dry.result("power_error_W")), runs, missing,
+    return Study(folder.name, dry.mill, result_power(dry), runs, missing,
                  "" if dry.results.get("steady") else "charge")
 
 

@@ -7,6 +7,9 @@ from .batches import mean_over_turns, turn_means, whole_turns
 from .means import Mean, turns_mean
 
 TURNS = 3  # of the averaged flow, at least: the error of two has one degree of freedom, and is hardly known
+# Degrees of freedom of results.json's power_error_W of a tumbling mill: ten batches about a straight line, as millDem
+# makes it (dem_driver/steady_state.cpp)
+DRY_FREEDOM = 8
 UNKNOWN = Mean(np.nan, np.nan)
 
 
@@ -58,12 +61,18 @@ def flow_span(case: MillCase) -> tuple[float, float] | None:
     return case.flow.time0 + case.begin, case.flow.time0 + case.last
 
 
+def result_power(case: MillCase) -> Mean:
+    """Power that the walls give to the balls by results.json, W, from power_from_s on; its error is NaN where millDem
+    does not know it."""
+    return Mean(case.result("power_W"), case.result("power_error_W"), DRY_FREEDOM)
+
+
 def charge_power(case: MillCase) -> Mean:
     """Power that the walls give to the balls, W. Of balls that moved at the same time as the flow it is that of the
-    flow's last whole averaged turns, if there are two or more; otherwise results.json's, from power_from_s on."""
+    flow's last whole averaged turns, if there are two or more; otherwise result_power."""
     series = during_flow(case, case.energy)
     found = mean_over_turns(*series, case.begin, case.turn) if series else None
-    return found or Mean(case.result("power_W"), case.result("power_error_W"))
+    return found or result_power(case)
 
 
 def power_begin(case: MillCase) -> float:
