@@ -75,6 +75,19 @@ class Allrun(unittest.TestCase):
         self.assertIn("no run is complete", self.run_words(study, "--read", "--quick").stderr)
         self.assert_not_set_up()
 
+    def test_another_table_is_looked_for_from_where_allrun_was_called(self):
+        study = "cases/studies/mill_30cm_published"
+        self.copy("cases/studies")
+        self.assertIn("--against: expected the flows.csv", self.run_words(study, "--against").stderr)
+        missing = f"against: error: {Path.cwd() / 'none' / 'flows.csv'}: No such file or directory"
+        self.assertIn(missing, self.run_words(study, "--against", "none/flows.csv").stderr)
+        other = self.root / "flows.csv"
+        other.write_text("run,version,a,a ±,\"a, freedom\"\nseed,0.3.0,1,0.1,1\n")
+        done = self.run_words(study, "--against", str(other))
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("no run is complete", done.stdout + done.stderr)
+        self.assert_not_set_up()
+
 
 if __name__ == "__main__":
     unittest.main()

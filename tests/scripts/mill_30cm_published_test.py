@@ -468,6 +468,11 @@ class Tables(unittest.TestCase):
         self.assertEqual((row["dry run, min"], row["planned charge, min"], row["planned flow, min"]), (2, 1.5, None))
         self.assertEqual((row["memory, GB"], row["planned memory, GB"], row["planned disk, GB"]), (0.3, 0.4, 5))
 
+    def test_rows_have_the_version_that_computed_a_run(self):
+        for summary, version in (({"program": "slurryFoam 0.2.0+ed1f35881"}, "0.2.0+ed1f35881"), ({}, "–"),
+                                 ({"program": None}, "–")):
+            self.assertEqual(study.version_of(summary), version)
+
     def test_columns_have_the_freedom_of_an_error(self):
         row = study.freedom_columns("drop, Pa", Mean(1.234e-3, 0.056e-3, 2), 1e3)
         self.assertEqual(row, {"drop, Pa": 1.234, "drop, Pa ±": 0.056, "drop, Pa, freedom": 2})

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Whether a flow of the study may be judged as the published one: it begins with as much slurry, and balls that feel it
 get the force that the flow has for them."""
-from millfoam.report.coupling_section import coupling_of, momentum_balances
+from millfoam.report.coupling_section import coupling_of, has_settled, momentum_balances
 
 from flow_numbers import Flow
 from runs import is_published
@@ -27,12 +27,16 @@ def other_slurry(flow: Flow, flows: dict[str, Flow]) -> str:
 
 
 def other_force(flow: Flow) -> str:
-    """Why balls that feel the slurry of a flow do not get the force that its own balance of momentum has for them, by
-    the report's check; or an empty text, also where balls do not feel it."""
+    """Why balls that feel the slurry of a flow do not get the force that its own balance of momentum has for them, or
+    passes of balls and slurry in turn still change, by the report's checks; or an empty text, also where balls do not
+    feel it."""
     if not flow.run.feels_slurry:
         return ""
     if flow.case.coupled is None:
         return "its balls' forces are not known: there is no coupling.json of it"
+    if coupling_of(flow.case)["coupling"] == "iterated":
+        check = has_settled(flow.case)
+        return "" if check.state == "holds" else check.found
     if coupling_of(flow.case).get("force_unbalanced") is None:
         return ("its balls' forces are not known: its slurryBalance has no force_balance_x_N, which flows have since "
                 "version 4ab5dae1; before, the force of the pressure on balls was up to 10 % too large")

@@ -34,13 +34,19 @@ from runs import RUNS, Run, is_published
 REFERENCE = RUNS["Beetstra_75_20"]  # on the page of all runs, where it is complete
 
 
+def version_of(summary: dict[str, Any]) -> str:
+    """Version of the program that wrote a summary, as it is written there: `0.3.0+eb3f671b1`; a dash if it is not."""
+    return str(summary.get("program") or "–").rsplit(" ", 1)[-1]
+
+
 def charge_row(run: Run, case: MillCase) -> Row:
     """A dry run's line of the table."""
     found = charge_with_errors(case.charge_windows, case.radius)
 
     def mean(name: str, k: int = 0) -> Mean:
         return of_reading(found[name], k)
-    return {"run": run.name, "speed, %": run.speed, "steady from, s": case.result("steady_from_s"),
+    return {"run": run.name, "version": version_of(case.results or {}), "speed, %": run.speed,
+            "steady from, s": case.result("steady_from_s"),
             **freedom_columns("power, W", result_power(case)),
             **freedom_columns("centre of circulation x, mm", mean("centre", 0), 1e3),
             **freedom_columns("centre of circulation y, mm", mean("centre", 1), 1e3),
@@ -63,7 +69,8 @@ def flow_row(flow: Flow) -> Row:
     run, readings = flow.run, flow.readings
     unknown = Mean(np.nan, np.nan)
     first, last = flow.holdup
-    return {"run": run.name, "speed, %": run.speed, "solids, %": run.solids, "law": run.law or "–",
+    return {"run": run.name, "version": version_of(flow.case.record.last), "speed, %": run.speed,
+            "solids, %": run.solids, "law": run.law or "–",
             "turns": flow.turns, "steady": readings.steady, "hold-up at first, l": 1e3 * first,
             "hold-up at last, l": 1e3 * last, "feed, ml/s": 1e6 * (flow.case.feed or 0),
             **freedom_columns("discharge, ml/s", flow.discharge, 1e6), **freedom_columns("net, ml/s", flow.net, 1e6),

@@ -31,6 +31,11 @@ def freedom_columns(column: str, mean: Mean, scale: float = 1.0) -> Row:
     return mean_columns(column, mean, scale) | {f"{column}, freedom": mean.freedom}
 
 
+def mean_of(row: Row, column: str) -> Mean:
+    """The mean of a row's three freedom_columns."""
+    return Mean(*(row[f"{column}{end}"] for end in ("", " ±", ", freedom")))
+
+
 def freedom_text(row: Row, column: str, digits: int = 2) -> str:
     """mean_text, with the error's degrees of freedom in brackets where it is not exact: `1.20 ± 0.10 (4)`."""
     words, freedom = mean_text(row, column, digits), row.get(f"{column}, freedom", np.inf)
