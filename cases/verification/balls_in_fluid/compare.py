@@ -32,7 +32,7 @@ def experiments(work, quick):
              partial(settling, width=width, solidity=0.3)]
     if not quick:
         found += [partial(settling, width=width, solidity=solidity) for solidity in (0.05, 0.45)]
-    return [*found, partial(segregation, end=1.2 if quick else 3.0)]
+    return [*found, partial(segregation, end=1.2 if quick else 3.0, compared=not quick)]
 
 
 def print_table(findings, out):
@@ -61,7 +61,7 @@ def plot(curves, out):
 
 
 def main():
-    options = case_options(__doc__, "smaller beds, fewer suspensions")
+    options = case_options(__doc__, "smaller beds, fewer suspensions, no run that is only drawn")
     here = Path(__file__).parent.resolve()
     work = fresh_runs(here)
     done = run_jobs(lambda experiment: experiment(work), experiments(work, options.quick), options.jobs)

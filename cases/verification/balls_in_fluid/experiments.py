@@ -189,13 +189,14 @@ def settling(work, width, solidity):
     return findings, [Curve("settling", f"solidity {solidity:g}", motion.time[shown], mean[shown], expected)]
 
 
-def segregation(work, end):
+def segregation(work, end, compared):
     """Two sizes with little friction, so that they can pass each other, under an upflow that carries both: the smaller
-    ones rise above the larger ones. Without the drag of their own sizes both have the same force per volume."""
+    ones rise above the larger ones. Without the drag of their own sizes both have the same force per volume. compared:
+    whether a run without it is drawn, which has no limit."""
     small, large = DIAMETER, 1.5 * DIAMETER
     speed = 2.2 * minimum_fluidisation(0.6, large)
     findings, curves = [], []
-    for own in (True, False):
+    for own in (True, False) if compared else (True,):
         column = Column(0.02, 0.161, 23, "ErgunWenYu", end, feed=((0.0, 0.0), (0.3, speed)), settle=0.3,
                         polydispersity=own, friction=0.05)
         balls = scattered(column, 0.18, 1e-4, 0.1, (small,) * 3 + (large,))
