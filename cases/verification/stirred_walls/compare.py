@@ -74,8 +74,8 @@ def runs(quick: bool) -> dict[str, Run]:
     vessel = (f"speed.angular_velocity={PARABOLOID}", "geometry.height=0.15",
               "geometry.impeller.shaft={diameter: 0.02, end: 0.06}", "slurry.plastic_viscosity=2",
               "flow.max_time_step=0.002")
-    found[KEEPS] = Run(own, (*vessel, "flow.duration=0.3", f"resolution.cell_size={0.0775 / 14:.6g}"), "vessel", True,
-                       turning=True)
+    keeps = ("flow.duration=0.3", f"resolution.cell_size={0.0775 / (10 if quick else 14):.6g}")
+    found[KEEPS] = Run(own, (*vessel, *keeps), "vessel", True, turning=True)
     if not quick:
         found[SPINS_UP] = Run(own, (*vessel, "flow.duration=3", f"resolution.cell_size={0.0775 / 20:.6g}"), "vessel",
                               True)
@@ -185,9 +185,10 @@ def paraboloid(state: State) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     shaft, shell = mill.impeller["shaft_diameter_m"] / 2, mill.radius
     outside = state.radius > shaft
     radius, share, volume = state.radius[outside], state.share[outside], state.volume[outside]
-    edges = np.linspace(shaft, shell, 13)
-    ring = np.digitize(radius, edges) - 1
-    wet, room, square = (np.bincount(ring, values, 12) for values in (share * volume, volume, radius**2 * volume))
+    # Not narrower than a cell
+    rings = min(12, int((shell - shaft) / mill.derived("resolution", "cell_size_m")))
+    ring = np.digitize(radius, np.linspace(shaft, shell, rings + 1)) - 1
+    wet, room, square = (np.bincount(ring, values, rings) for values in (share * volume, volume, radius**2 * volume))
     at = np.sqrt(square / room)
     slope = omega**2 / (2 * GRAVITY)
     # The slurry's volume outside of the shaft's radius is that of the closed form
@@ -253,7 +254,7 @@ def draw(states: dict[str, State]) -> None:
 
 
 def main() -> int:
-    options = case_options(__doc__, "coarser Couette flow, a shorter pool, and no vessel from rest")
+    options = case_options(__doc__, "coarser cells, a shorter pool, and no vessel from rest")
     fresh_runs(HERE)
     what = runs(options.quick)
     found = dict(zip(what, run_jobs(compute, what.items(), options.jobs)))
