@@ -345,5 +345,4 @@ class DemRun(unittest.TestCase):
 
 if __name__ == "__main__":
     os.environ.setdefault("OMPI_MCA_rmaps_base_oversubscribe", "1")
-    os.environ.setdefault("OMPI_MCA_mpi_yield_when_idle", "1")  # two ranks next to another test on two cores
     unittest.main(verbosity=2)
