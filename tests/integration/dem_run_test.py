@@ -28,7 +28,7 @@ charge:
     - {diameter: 0.002, mass: 0.002}
 materials: {ball: glass, wall: HDPE}
 dem:
-  {youngs_modulus: 1e7, rayleigh_fraction: 0.2, settle_time: 0.1, duration: 0.4, record_interval: 0.005, seed: 3,
+  {youngs_modulus: 5e6, rayleigh_fraction: 0.2, settle_time: 0.1, duration: 0.4, record_interval: 0.005, seed: 3,
    contact_interval: 0.012}
 slurry: {density: 1239, plastic_viscosity: 0.0014, yield_stress: 0.16, level: -0.002}
 resolution: {cell_size: 0.003, layers: 4}
@@ -284,7 +284,7 @@ class DemRun(unittest.TestCase):
     def test_what_cannot_be_is_refused_with_the_line_or_the_option(self):
         case = self.make_case()
         for old, new, message in (
-                ("youngs_modulus: 1e7", "youngs_modulus: 1e6",
+                ("youngs_modulus: 5e6", "youngs_modulus: 1e6",
                  "mill.yaml:10: key 'dem.youngs_modulus' = 1e.06: expected"),
                 (DURATION, "duration: 1e5",
                  r"mill.yaml:10: key 'dem.record_interval' = 0.005: expected a time in s from 0.1 s"),
