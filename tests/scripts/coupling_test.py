@@ -26,6 +26,7 @@ from millfoam.report.case_readings import Readings
 from millfoam.report.coupling_section import (coupling_checks, coupling_section, forces_exchanged, torques_balance,
                                               voxels_are_small)
 from report_cases import BALANCE, LENGTH, RADIUS, change_json, write_flow
+from report_test import undrawn
 
 SHAPE = (2, 8, 8)
 LOWER, UPPER = np.array([-RADIUS, -RADIUS, 0]), np.array([RADIUS, RADIUS, LENGTH])
@@ -209,6 +210,7 @@ class Judging(unittest.TestCase):
         self.assertTrue(np.isnan(passes.change(thin, whole).over_limit["charge_x"]))
         self.assertFalse(passes.change(thin, whole).within)
 
+    @mock.patch("millfoam.report.page.encode", undrawn)
     def test_the_report_of_the_last_pass_shows_the_passes_and_their_verdicts(self):
         page = report_case(self.case / "pass_3")
         for words in ("Balls and slurry in turn", "Balls and slurry have settled", "feel the slurry’s force",
@@ -216,6 +218,7 @@ class Judging(unittest.TestCase):
             self.assertIn(words.replace("’", "&#x27;") if words not in page else words, page)
         self.assertNotIn("The slurry would not move the balls", page)
 
+    @mock.patch("millfoam.report.page.encode", undrawn)
     def test_the_report_of_a_mill_that_is_one_way_again_does_not_show_them(self):
         page = report_case(self.case / "pass_2")
         self.assertIn("Balls and slurry have settled", page)

@@ -103,6 +103,7 @@ class Case(unittest.TestCase):
 
     def undrawn(self):
         self.enterContext(mock.patch("millfoam.report.page.encode", undrawn))
+        self.enterContext(mock.patch("matplotlib.figure.Figure.draw_without_rendering"))
         self.enterContext(mock.patch("millfoam.report.sections.FRAMES", 2))
 
     def assert_whole(self, text):
