@@ -69,7 +69,7 @@ class Passes(unittest.TestCase):
         cls.case = Path(tempfile.mkdtemp(prefix="coupling-"))
         cls.addClassCleanup(shutil.rmtree, cls.case)
         (cls.case / "mill.yaml").write_text(MILL)
-        cls.output = run_mill(cls.case, "mill.yaml")
+        run_mill(cls.case, "mill.yaml", undrawn="pictures")
 
     def test_the_second_goes_on_where_the_first_ended(self):
         runs = [read_json(folder / "dumps" / "run.json", "dumps") for folder in (self.case, self.case / "pass_2")]
@@ -178,7 +178,7 @@ class Passes(unittest.TestCase):
 
     def test_one_way_coupling_keeps_the_first(self):
         case = self.copy("-copy")
-        output = run_mill(case, "mill.yaml", "flow.coupling=one_way")
+        output = run_mill(case, "mill.yaml", "flow.coupling=one_way", undrawn="pictures")
         self.assertNotIn("Running flow", output)
         self.assertNotIn("Pass 2", output)
         page = (case / "report.html").read_text()
@@ -187,12 +187,12 @@ class Passes(unittest.TestCase):
 
     def test_relaxation_changes_the_passes_after_the_second_and_a_law_changes_all_flows(self):
         case = self.copy("-law")
-        output = run_mill(case, "mill.yaml", "flow.relaxation=0.5")
+        output = run_mill(case, "mill.yaml", "flow.relaxation=0.5", undrawn="pictures report")
         for stage in ("charge", "flow", "forces"):
             self.assertIn(f"Keeping {stage}: it is up to date", output)
         self.assertNotIn("Running charge", output)
         self.assertNotIn("Running flow", output)
-        output = run_mill(case, "mill.yaml", "flow.law=Ergun")
+        output = run_mill(case, "mill.yaml", "flow.law=Ergun", undrawn="pictures report")
         self.assertEqual(output.count("Running flow"), 2)
         self.assertEqual(output.count("Running forces"), 1)
         self.assertEqual(output.count("Running charge"), 1)  # of pass 2; the dry one is kept
