@@ -74,7 +74,7 @@ class StirredDirect(unittest.TestCase):
 
     def test_iterated_coupling_is_refused(self):
         with self.assertRaisesRegex(RunError, "one_way or direct for a stirred mill"):
-            run_mill(self.case.with_name(self.case.name + "-other"), self.case / "mill.yaml", "flow.coupling=iterated")
+            run_mill(self.case / "other", self.case / "mill.yaml", "flow.coupling=iterated")
 
 
 if __name__ == "__main__":
