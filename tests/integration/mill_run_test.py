@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A shortened run of the 12 cm mill, every stage real: the result must be a mill; and what Allrun makes again.
 
-The mill itself with coarser cells and less time: slurryFoam with the law's drag and with none, and interFoam with
-particleDrag."""
+The mill itself with coarser cells, less time, and balls of 3 mm for those of 2 mm: slurryFoam with the law's drag and
+with none, and interFoam with particleDrag."""
 import fcntl
 import os
 import re
@@ -30,7 +30,10 @@ import mills_test
 ROOT = Path(__file__).resolve().parents[2]
 MILL = ROOT / "cases" / "mills" / "mill_12cm" / "mill.yaml"
 START, END, LATE = 0.4, 0.4, 0.2  # DEM time at flow time 0; the flow's end; averages from then on, s
-CHANGES = ("resolution={cell_size: 0.005, layers: 10}", f"dem.duration={START + END}", f"flow.duration={END}",
+CLASSES = ((0.008, 0.091), (0.006, 0.133), (0.005, 0.155), (0.004, 0.169), (0.003, 0.275))  # m, kg
+CHANGES = ("resolution={cell_size: 0.005, layers: 10}", "dem.youngs_modulus=5e6",
+           f"charge.classes=[{', '.join(f'{{diameter: {size}, mass: {mass}}}' for size, mass in CLASSES)}]",
+           f"dem.duration={START + END}", f"flow.duration={END}",
            f"averages={{voxel_size: 0.011, window: 0.05, start: {START}}}", "flow.write_interval=0.02",
            f"flow.averages={{start: {LATE}, window: 0.05}}")
 os.environ["MILLFOAM_NP"] = "1"  # of all flows here
@@ -158,7 +161,10 @@ class Again(unittest.TestCase):
         (folder / "mill.yaml").write_text(mills_test.SliceOfGlass.YAML)
         run(folder, ROOT / "scripts" / "new_mill", "mill.yaml", folder / "case")
         cls.whole = folder / "case"
-        run(cls.whole, "./Allrun")
+        run(cls.whole, "./Allrun", "--until", "flow")
+        # What that call has set up is there
+        cls.enterClassContext(mock.patch.dict(os.environ, without_setup="yes"))
+        cls.again = cls.stages(run(cls.whole, "./Allrun"))
 
     def setUp(self):
         folder = Path(tempfile.mkdtemp(prefix="mill-again-"))
@@ -166,10 +172,14 @@ class Again(unittest.TestCase):
         self.case = folder / "case"
         shutil.copytree(self.whole, self.case, symlinks=True)
 
+    @staticmethod
+    def stages(output):
+        """(stages that were made, stages that were kept) of what an Allrun said."""
+        return tuple(re.findall(rf"^{word} (\w+):", output, re.M) for word in ("Running", "Keeping"))
+
     def allrun(self, *options):
         """(stages that were made, stages that were kept) of an Allrun."""
-        output = run(self.case, "./Allrun", *options)
-        return tuple(re.findall(rf"^{word} (\w+):", output, re.M) for word in ("Running", "Keeping"))
+        return self.stages(run(self.case, "./Allrun", *options))
 
     def refused(self, *command):
         """What a program says that fails, without its line breaks."""
@@ -179,10 +189,17 @@ class Again(unittest.TestCase):
 
     FLOW = ["mesh", "check", "start", "flow"]
 
-    def test_everything_is_kept(self):
-        made, kept = self.allrun()
+    def test_everything_is_kept_and_costs_are_of_all_calls(self):
+        made, kept = self.again
         self.assertEqual(kept, ["walls", "charge", "average", *self.FLOW])
         self.assertEqual(made, ["pictures", "report"])
+        self.assertEqual(self.costs(), sorted(["walls", "charge", "average", *self.FLOW, "pictures", "report"]))
+        self.allrun("--set", "flow.law=Hill", "--until", "start")
+        self.assertEqual(self.costs(), sorted(["walls", "charge", "average", *self.FLOW]))
+
+    def costs(self):
+        """The stages of log.costs, sorted."""
+        return sorted(line.split(",")[0] for line in (self.case / "log.costs").read_text().splitlines())
 
     def test_a_mill_that_a_tool_refuses_leaves_all_results_valid(self):
         poor = "resolution={counts: {gap: 1, lifter: 1, height: 1, ring: 40}, layers: 2}"
@@ -382,14 +399,6 @@ class Again(unittest.TestCase):
         made, _ = self.allrun("--until", "charge", "--set", "dem.contact_statistics=true")
         self.assertEqual(made, ["charge"])
         self.assertTrue([*(self.case / "dumps").glob("contact_*.csv")])
-
-    def test_costs_are_of_all_calls(self):
-        self.allrun()
-        names = [line.split(",")[0] for line in (self.case / "log.costs").read_text().splitlines()]
-        self.assertEqual(sorted(names), sorted(["walls", "charge", "average", *self.FLOW, "pictures", "report"]))
-        self.allrun("--set", "flow.law=Hill", "--until", "start")
-        names = [line.split(",")[0] for line in (self.case / "log.costs").read_text().splitlines()]
-        self.assertEqual(sorted(names), sorted(["walls", "charge", "average", *self.FLOW]))
 
     def test_the_description_is_not_overwritten(self):
         before = (self.case / "mill.yaml").read_bytes()
