@@ -340,9 +340,9 @@ class Bingham(unittest.TestCase):
 class CarriedAlong(Printed):
     def test_a_run_that_ended_early_misses(self):
         case = load_case("carried_along")
-        run = case.Run(False, False, 0, 1e-3)
+        run = case.Run(False, False, 0, 1e-3, case.FULL_END)
         radius = np.linspace(0.01, 0.14, 20)
-        for times, missed in ((np.linspace(0, run.setting["end"], 21), 0), (np.zeros(1), 1)):
+        for times, missed in ((np.linspace(0, run.end, 21), 0), (np.zeros(1), 1)):
             flow = case.SpinUp(times, radius, np.zeros((len(times), 20)), np.ones(20), False)
             flow.speed = flow.exact
             self.assertEqual(self.report(case.report, {run: flow})[0], missed)
