@@ -27,7 +27,7 @@ geometry: {diameter: 0.06, length: 0.03, ends: periodic, lifters: {count: 6, hei
 speed: {fraction_of_critical: 0.7, sense: clockwise}
 charge: {classes: [{diameter: 0.004, mass: 0.015}, {diameter: 0.003, mass: 0.004}], start_radius: 0.02}
 materials: {ball: glass, wall: HDPE}
-dem: {youngs_modulus: 1e7, settle_time: 0.1, duration: 0.2, record_interval: 0.005, seed: 3}
+dem: {youngs_modulus: 5e6, settle_time: 0.1, duration: 0.2, record_interval: 0.005, seed: 3}
 slurry: {density: 1239, plastic_viscosity: 0.0014, yield_stress: 0.16}
 averages: {voxel_size: 0.006, window: 0.03, start: 0.05}
 resolution: {cell_size: 0.003, layers: 4}
