@@ -321,7 +321,11 @@ class Statements(unittest.TestCase):
         self.assertIn("undecided: with 95 % confidence", reason(force_unbalanced=0.015, force_unbalanced_reach=0.05))
         for old in ({}, {"force_unbalanced": None}):
             self.assertIn("not known: its slurryBalance has no force_balance_x_N", reason(**old))
-        flow.case.coupled = None
+        flow.run = RUNS["iterated_75_20"]
+        passes = {"passes": 3, "most_passes": 3, "largest_change": "toe"}
+        self.assertEqual(reason(settled=True, **passes), "")
+        self.assertIn("not after 3 passes: most of all changed the toe", reason(settled=False, **passes))
+        flow.run, flow.case.coupled = RUNS["direct_75_20"], None
         self.assertIn("there is no coupling.json", as_published.why_withheld(flow, flows))
         flow.run = RUNS["Beetstra_75_20"]
         self.assertEqual(as_published.why_withheld(flow, flows), "")

@@ -4,7 +4,7 @@ get the force that the flow has for them."""
 from millfoam.report.coupling_section import coupling_of, has_settled, momentum_balances
 
 from flow_numbers import Flow
-from runs import is_published
+from runs import ITERATED, is_published
 
 # Share by which slurry at first may differ from that of the published flows. Those lose up to as much in 5 s: their own
 # numbers are means over such a change
@@ -34,7 +34,7 @@ def other_force(flow: Flow) -> str:
         return ""
     if flow.case.coupled is None:
         return "its balls' forces are not known: there is no coupling.json of it"
-    if coupling_of(flow.case)["coupling"] == "iterated":
+    if ITERATED in flow.run.changes:
         check = has_settled(flow.case)
         return "" if check.state == "holds" else check.found
     if coupling_of(flow.case).get("force_unbalanced") is None:

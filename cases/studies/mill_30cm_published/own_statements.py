@@ -26,7 +26,7 @@ from flow_numbers import Flow
 DRY = 0.5  # share of slurry in the fluid below which the centre of circulation is a dry patch
 POOR = 0.1  # root mean square of a fit's residuals over the profile's amplitude, above which it shows no humps
 HARDLY = 0.02  # difference of two maps of solidity (compare.Difference) that is hardly one: that of a turn by 4 degrees
-FELT = "direct_75_20"  # the run whose balls feel the slurry
+FELT = ("direct_75_20", "iterated_75_20")  # the runs whose balls feel the slurry
 
 Flows = dict[str, Flow]
 Cases = dict[str, MillCase]
@@ -123,9 +123,9 @@ def bed(flows: Flows) -> Iterator[Verdict]:
 
 
 def felt(flows: Flows) -> Iterator[Verdict]:
-    """What is published of each flow with balls, of the one whose balls feel the slurry."""
-    if FELT in flows:
-        readings, reason = flows[FELT].readings, why_withheld(flows[FELT], flows)
+    """What is published of each flow with balls, of those whose balls feel the slurry."""
+    for flow in (flows[name] for name in FELT if name in flows):
+        readings, reason = flow.readings, why_withheld(flow, flows)
         for statement in (surface_follows, reynolds_below, circulation):
             for one in (one for one in statement(Runs([readings])) if one.runs == readings.name):
                 verdict, figure = withheld(one.verdict, one.figure, reason)
@@ -172,14 +172,15 @@ def noise(case: MillCase) -> float:
 
 def charges(flows: Flows, dry: Cases) -> Iterator[Verdict]:
     """The balls' map hardly differs where they feel the slurry, and after another random insertion."""
-    wet = {name: flow.case for name, flow in flows.items() if name == FELT}
-    for statement, name in (("the balls' map hardly differs where they feel the slurry", FELT),
+    wet = [name for name in FELT if name in flows] or list(FELT[:1])
+    cases = {**dry, **{name: flows[name].case for name in wet if name in flows}}
+    for statement, name in (*(("the balls' map hardly differs where they feel the slurry", name) for name in wet),
                             ("the balls' map hardly differs after another random insertion", "dry_seed")):
-        gone = [one for one in (name, "dry_75") if one not in {**dry, **wet}]
+        gone = [one for one in (name, "dry_75") if one not in cases]
         if gone:
             yield Verdict(statement, f"{name}, dry_75", NOT_TESTED, "not complete: " + ", ".join(gone))
             continue
-        apart, words = charge_apart({**dry, **wet}[name], dry["dry_75"])
+        apart, words = charge_apart(cases[name], cases["dry_75"])
         yield Verdict(statement, f"{name}, dry_75", *withheld(
             by_sign(Mean(HARDLY) - apart), f"{words} (limit {100 * HARDLY:g} % of solidity; halves of dry_75 differ by "
             f"{100 * noise(dry['dry_75']):.2f} %)", why_withheld(flows[name], flows) if name in flows else ""))
