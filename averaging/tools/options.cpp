@@ -11,7 +11,7 @@
 
 #include "averaging/dumps/text_lines.hpp"
 #include "averaging/run/program.hpp"
-#include "meshing/mill/mill_averages.hpp"
+#include "meshing/mill/mill_voxels.hpp"
 
 namespace millfoam::averaging {
 

@@ -10,6 +10,7 @@
 #include "meshing/mill/mill_charge.hpp"
 #include "meshing/mill/mill_geometry.hpp"
 #include "meshing/mill/mill_shape.hpp"
+#include "meshing/mill/mill_voxels.hpp"
 #include "meshing/mill/rules.hpp"
 #include "openfoam_module/drag/drag_laws.hpp"
 #include "openfoam_module/drag/nonspherical.hpp"

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "meshing/files/text_numbers.hpp"
-#include "meshing/mill/mill_averages.hpp"
+#include "meshing/mill/mill_voxels.hpp"
 #include "meshing/mill/rules.hpp"
 #include "meshing/surface/pi.hpp"
 
