@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "averaging/dumps/dump_error.hpp"
 #include "averaging/dumps/text_lines.hpp"
 
 namespace millfoam::averaging {

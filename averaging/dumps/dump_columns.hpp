@@ -7,8 +7,6 @@
 #include <string_view>
 #include <vector>
 
-#include "averaging/dumps/dump_reader.hpp"
-
 namespace millfoam::averaging {
 
 /// What a column of a dump can hold; also its place in a row of values.

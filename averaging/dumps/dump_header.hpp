@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "averaging/dumps/dump_reader.hpp"
+#include "averaging/dumps/dump_error.hpp"
 #include "averaging/dumps/text_lines.hpp"
 
 namespace millfoam::averaging {

@@ -5,7 +5,7 @@
 
 #include <cstring>
 
-#include "averaging/dumps/dump_reader.hpp"
+#include "averaging/dumps/dump_error.hpp"
 
 namespace millfoam::averaging {
 

@@ -2,18 +2,13 @@
 #pragma once
 
 #include <filesystem>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 
+#include "averaging/dumps/dump_error.hpp"
 #include "averaging/values/particle.hpp"
 
 namespace millfoam::averaging {
-
-/// Dumps that cannot be used; the message begins with "file:line:" or the file's name.
-class DumpError : public std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
 
 /// Parses one record in the text layout of LIGGGHTS' and LAMMPS' `dump custom`: the items TIMESTEP, NUMBER OF
 /// ATOMS, BOX BOUNDS and ATOMS. Lines end with LF or CR LF, the last one too: without it a cut number would

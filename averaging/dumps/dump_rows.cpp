@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "averaging/dumps/bounding_radius.hpp"
+#include "averaging/dumps/dump_error.hpp"
 #include "averaging/dumps/quick_number.hpp"
 #include "averaging/dumps/unique_ids.hpp"
 #include "meshing/files/text_numbers.hpp"

@@ -7,8 +7,8 @@
 
 #include "averaging/dumps/dump_columns.hpp"
 #include "averaging/dumps/dump_header.hpp"
-#include "averaging/dumps/dump_reader.hpp"
 #include "averaging/dumps/text_lines.hpp"
+#include "averaging/values/particle.hpp"
 
 namespace millfoam::averaging {
 

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include "averaging/dumps/dump_error.hpp"
 #include "averaging/dumps/dump_input.hpp"
-#include "averaging/dumps/dump_reader.hpp"
 
 namespace millfoam::averaging {
 

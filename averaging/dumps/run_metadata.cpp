@@ -5,7 +5,7 @@
 #include <limits>
 #include <sstream>
 
-#include "averaging/dumps/dump_reader.hpp"
+#include "averaging/dumps/dump_error.hpp"
 #include "meshing/files/file_fingerprint.hpp"
 #include "meshing/files/json_object.hpp"
 
