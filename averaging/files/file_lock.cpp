@@ -50,18 +50,21 @@ Attempt try_lock(int file, const std::filesystem::path& name) {
 std::optional<FileLock> FileLock::take(const LockRequest& request) {
   const auto end = std::chrono::steady_clock::now() + request.longest_wait;
   while (true) {
-    const int file = open_file(request);
-    const Attempt attempt = try_lock(file, request.file);
-    if (attempt == Attempt::locked)
-      return FileLock(file, request.temporary ? request.file : std::filesystem::path());
-    close(file);
+    // It has the file from the beginning, and closes it where locking throws
+    std::optional<FileLock> lock = FileLock(open_file(request));
+    const Attempt attempt = try_lock(lock->file_, request.file);
+    if (attempt == Attempt::locked) {
+      if (request.temporary) lock->removed_ = request.file;
+      return lock;
+    }
+    lock.reset();
     if (attempt == Attempt::removed) continue;
     if (std::chrono::steady_clock::now() >= end) return std::nullopt;
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
   }
 }
 
-FileLock::FileLock(int file, std::filesystem::path removed) : file_(file), removed_(std::move(removed)) {}
+FileLock::FileLock(int file) : file_(file) {}
 
 FileLock::FileLock(FileLock&& other) noexcept
     : file_(std::exchange(other.file_, -1)), removed_(std::move(other.removed_)) {}

@@ -37,7 +37,8 @@ class FileLock {
   void sign(const std::string& holder) const;
 
  private:
-  FileLock(int file, std::filesystem::path removed);
+  /// Takes over an open file, which it closes.
+  explicit FileLock(int file);
 
   int file_ = -1;
   std::filesystem::path removed_;  ///< with the lock; empty for none
