@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "averaging/files/slurry_file.hpp"
-#include "averaging/run/average_run.hpp"
+#include "averaging/run/average_request.hpp"
 #include "averaging/statistics/record_sums.hpp"
 #include "averaging/statistics/window_average.hpp"
 #include "meshing/files/text_numbers.hpp"

@@ -9,7 +9,7 @@
 #include "averaging/deposition/deposition.hpp"
 #include "averaging/grids/grid.hpp"
 #include "averaging/mesh/mesh_diffusion.hpp"
-#include "averaging/run/average_run.hpp"
+#include "averaging/run/average_request.hpp"
 #include "averaging/statistics/window_average.hpp"
 #include "averaging/walls/moving_walls.hpp"
 

@@ -10,6 +10,8 @@
 #include <utility>
 #include <variant>
 
+#include "averaging/dumps/dump_error.hpp"
+
 namespace millfoam::averaging {
 
 namespace {

@@ -9,7 +9,8 @@
 
 #include "averaging/dumps/dump_header.hpp"
 #include "averaging/dumps/dump_series.hpp"
-#include "averaging/run/average_run.hpp"
+#include "averaging/grids/grid.hpp"
+#include "averaging/run/average_request.hpp"
 
 namespace millfoam::averaging {
 

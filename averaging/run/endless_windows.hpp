@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "averaging/run/average_run.hpp"
+#include "averaging/run/average_request.hpp"
 #include "averaging/values/solids_window.hpp"
 
 namespace millfoam::averaging {

@@ -9,9 +9,10 @@
 #include <vector>
 
 #include "averaging/dumps/run_metadata.hpp"
-#include "averaging/run/average_run.hpp"
+#include "averaging/run/average_request.hpp"
 #include "averaging/run/cell_setup.hpp"
 #include "averaging/run/communicator.hpp"
+#include "averaging/run/solids_summary.hpp"
 #include "averaging/run/window_recorder.hpp"
 #include "averaging/statistics/time_windows.hpp"
 #include "averaging/values/particle.hpp"

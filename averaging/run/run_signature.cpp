@@ -3,6 +3,7 @@
 
 #include <sstream>
 
+#include "averaging/files/solids_file.hpp"
 #include "averaging/run/program.hpp"
 
 namespace millfoam::averaging {

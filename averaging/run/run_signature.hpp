@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "averaging/dumps/dump_series.hpp"
+#include "averaging/run/average_request.hpp"
 #include "averaging/run/cell_setup.hpp"
 #include "averaging/statistics/time_windows.hpp"
 

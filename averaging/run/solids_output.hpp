@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
@@ -8,8 +10,9 @@
 
 #include "averaging/dumps/run_metadata.hpp"
 #include "averaging/files/output_lock.hpp"
-#include "averaging/run/average_run.hpp"
+#include "averaging/run/average_request.hpp"
 #include "averaging/run/cell_setup.hpp"
+#include "averaging/run/solids_summary.hpp"
 
 namespace millfoam::averaging {
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "averaging/run/average_run.hpp"
+#include "averaging/run/average_request.hpp"
 #include "meshing/mill/mill_reader.hpp"
 
 namespace millfoam::averaging {

@@ -10,6 +10,7 @@
 #include <new>
 #include <stdexcept>
 
+#include "averaging/run/average_run.hpp"
 #include "averaging/run/program.hpp"
 #include "averaging/run/summary_file.hpp"
 #include "averaging/tools/mill_averages.hpp"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "averaging/run/average_run.hpp"
+#include "averaging/run/average_request.hpp"
 #include "meshing/tools/mill_options.hpp"
 
 namespace millfoam::averaging {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "averaging/run/average_run.hpp"
+#include "averaging/run/average_request.hpp"
 #include "tests/averaging/test_support.hpp"
 
 namespace millfoam::averaging {

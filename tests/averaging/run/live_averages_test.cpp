@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "averaging/run/average_run.hpp"
 #include "averaging/run/program.hpp"
 #include "tests/averaging/test_support.hpp"
 
