@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <vector>
 
 #include "averaging/files/file_lock.hpp"
 
@@ -57,6 +58,13 @@ struct CaseFolder {
   /// Books of the charge, a row for each size class.
   std::filesystem::path charge() const { return dumps() / "charge.csv"; }
 };
+
+/// Every `dump.*.txt` in the dumps folder, in no order; none without that folder.
+std::vector<std::filesystem::path> find_dumps(const CaseFolder& folder);
+
+/// Removes `run.json`, `results.json` and the tables in their folder, so that a failed run leaves no results
+/// of an earlier run.
+void remove_results(const CaseFolder& folder);
 
 /// Locks a folder for this process and the programs that it starts, so that no other run writes there: the
 /// lock ends with the last of these programs, however they end.

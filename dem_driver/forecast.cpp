@@ -17,6 +17,7 @@
 #include "dem_driver/contact_order.hpp"
 #include "dem_driver/deck.hpp"
 #include "dem_driver/deck_outputs.hpp"
+#include "dem_driver/folder_preparation.hpp"
 #include "dem_driver/liggghts_run.hpp"
 #include "dem_driver/pairs.hpp"
 #include "dem_driver/segments.hpp"

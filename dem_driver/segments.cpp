@@ -130,16 +130,6 @@ std::vector<SegmentLine> read_segments(const CaseFolder& folder, const std::stri
   return all;
 }
 
-std::vector<fs::path> find_dumps(const CaseFolder& folder) {
-  std::vector<fs::path> dumps;
-  if (!fs::is_directory(folder.dumps())) return dumps;
-  for (const auto& entry : fs::directory_iterator(folder.dumps())) {
-    const std::string name = entry.path().filename().string();
-    if (name.rfind("dump.", 0) == 0 && entry.path().extension() == ".txt") dumps.push_back(entry.path());
-  }
-  return dumps;
-}
-
 std::vector<NumberedFile> find_numbered_dumps(const CaseFolder& folder) {
   return find_numbered(folder.dumps(), "dump.", ".txt");
 }
@@ -177,32 +167,6 @@ void remove_restarts_before(const CaseFolder& folder, long step) {
     for (const auto& found : files)
       if (found.step < step) fs::remove(found.file);
   remove_contact_states(folder, [&](long other) { return other < step; });
-}
-
-void remove_results(const CaseFolder& folder) {
-  for (const auto& file : {folder.run_file(), folder.results(), folder.energy(), folder.torques(),
-                           folder.fluid(), folder.contact_power(), folder.contact_spectra(),
-                           folder.wall_forces(), folder.overlaps(), folder.charge()})
-    fs::remove(file);
-}
-
-std::size_t prepare_folders(const CaseFolder& folder) {
-  fs::create_directories(folder.dem());
-  fs::create_directories(folder.dumps());
-  remove_results(folder);
-  fs::remove(folder.fluid_order());
-  fs::remove(folder.contact_order());
-  remove_contact_states(folder, [](long) { return true; });
-  fs::remove(folder.averages_order());
-  for (const auto& file : find_averages(folder)) fs::remove(file);
-  for (const auto& restart : find_restarts(folder)) fs::remove(restart.file);
-  for (const char* kind : segment_kinds)
-    for (const auto& segment : find_segments(folder, kind)) fs::remove(segment.file);
-  for (const char* kind : contact_kinds)
-    for (const auto& contacts : find_contacts(folder, kind)) fs::remove(contacts.file);
-  const auto old = find_dumps(folder);
-  for (const auto& dump : old) fs::remove(dump);
-  return old.size();
 }
 
 }  // namespace millfoam::dem_driver

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <cstddef>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -53,9 +52,6 @@ struct SegmentLine {
 /// one that is not all numbers.
 std::vector<SegmentLine> read_segments(const CaseFolder& folder, const std::string& kind, long continued = 0);
 
-/// Every `dump.*.txt` in the dumps folder, in no order; none without that folder.
-std::vector<std::filesystem::path> find_dumps(const CaseFolder& folder);
-
 /// Every `dumps/dump.<step>.txt`, by step.
 std::vector<NumberedFile> find_numbered_dumps(const CaseFolder& folder);
 
@@ -78,14 +74,5 @@ void remove_restarts_before(const CaseFolder& folder, long step);
 /// Removes the restart files of steps after `step`, with what belongs to them, and histories that begin after
 /// it: they cannot be resumed from.
 void remove_restarts_after(const CaseFolder& folder, long step);
-
-/// Removes `run.json`, `results.json` and the tables in their folder, so that a failed run leaves no results
-/// of an earlier run.
-void remove_results(const CaseFolder& folder);
-
-/// Makes the folders and removes dumps, contacts, run file, results, restart files, states of averages and
-/// histories of an earlier run, so that two runs never mix. Nothing else is removed. Returns the number of
-/// dumps removed.
-std::size_t prepare_folders(const CaseFolder& folder);
 
 }  // namespace millfoam::dem_driver

@@ -19,6 +19,7 @@
 #include "dem_driver/deck.hpp"
 #include "dem_driver/disk_room.hpp"
 #include "dem_driver/fluid_check.hpp"
+#include "dem_driver/folder_preparation.hpp"
 #include "dem_driver/forecast.hpp"
 #include "dem_driver/liggghts_run.hpp"
 #include "dem_driver/plan_report.hpp"

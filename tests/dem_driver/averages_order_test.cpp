@@ -10,6 +10,7 @@
 #include "dem_driver/contact_record.hpp"
 #include "dem_driver/deck.hpp"
 #include "dem_driver/disk_room.hpp"
+#include "dem_driver/folder_preparation.hpp"
 #include "dem_driver/output_check.hpp"
 #include "dem_driver/segments.hpp"
 #include "small_mill.hpp"

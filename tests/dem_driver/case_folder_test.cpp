@@ -8,6 +8,7 @@
 #include <optional>
 #include <thread>
 
+#include "dem_driver/folder_preparation.hpp"
 #include "dem_driver/run_file.hpp"
 #include "dem_driver/segments.hpp"
 #include "dem_driver/wall_parts.hpp"

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "dem_driver/folder_preparation.hpp"
 #include "dem_driver/liggghts_run.hpp"
 #include "dem_driver/output_check.hpp"
 #include "dem_driver/segments.hpp"

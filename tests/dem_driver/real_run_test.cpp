@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "dem_driver/deck.hpp"
+#include "dem_driver/folder_preparation.hpp"
 #include "dem_driver/liggghts_run.hpp"
 #include "dem_driver/output_check.hpp"
 #include "dem_driver/results.hpp"

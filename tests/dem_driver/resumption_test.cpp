@@ -6,8 +6,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "dem_driver/folder_preparation.hpp"
 #include "dem_driver/run_file.hpp"
-#include "dem_driver/segments.hpp"
 #include "small_mill.hpp"
 
 namespace millfoam::dem_driver {
