@@ -51,8 +51,9 @@ install(FILES ${CMAKE_BINARY_DIR}/generated/millfoam_version.hpp DESTINATION ${h
 install(PROGRAMS ${CMAKE_SOURCE_DIR}/scripts/new_mill ${CMAKE_SOURCE_DIR}/scripts/plot_mill
                  ${CMAKE_SOURCE_DIR}/scripts/report ${CMAKE_SOURCE_DIR}/scripts/setup
         DESTINATION ${share}/scripts)
-install(FILES ${CMAKE_SOURCE_DIR}/scripts/case_functions ${CMAKE_SOURCE_DIR}/scripts/env
-              ${CMAKE_SOURCE_DIR}/scripts/mill_stages ${CMAKE_SOURCE_DIR}/scripts/paraview_mill.py
+install(FILES ${CMAKE_SOURCE_DIR}/scripts/case_functions ${CMAKE_SOURCE_DIR}/scripts/coupling_functions
+              ${CMAKE_SOURCE_DIR}/scripts/env ${CMAKE_SOURCE_DIR}/scripts/mill_stages
+              ${CMAKE_SOURCE_DIR}/scripts/paraview_mill.py ${CMAKE_SOURCE_DIR}/scripts/stage_functions
         DESTINATION ${share}/scripts)
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/scripts/mill_case ${CMAKE_SOURCE_DIR}/scripts/millfoam
         DESTINATION ${share}/scripts
