@@ -164,12 +164,13 @@ class Differences(unittest.TestCase):
         self.assertEqual(block_mean([1.0]).sign, 0)
         self.assertEqual(Mean(0.0).sign, 0)
 
-    def test_equal_blocks_show_no_sign_unless_they_are_exact(self):
+    def test_equal_blocks_show_no_error_unless_it_is_exact(self):
         equal = block_mean([0.5, 0.5])
-        self.assertEqual((equal.error, equal.sign), (0, 0))
-        self.assertEqual(((equal - Mean(0.2)).freedom, (equal - Mean(0.2)).sign), (1, 0))
-        self.assertEqual((Mean(0.5) - Mean(0.2)).sign, 1)
-        self.assertEqual((Mean(0.5, 0.01) - block_mean([0.2, 0.2])).sign, 1)
+        self.assertEqual((equal.error, equal.shows_error), (0, False))
+        self.assertEqual(((equal - Mean(0.2)).freedom, (equal - Mean(0.2)).shows_error), (1, False))
+        self.assertTrue((Mean(0.5) - Mean(0.2)).shows_error)
+        self.assertTrue((Mean(0.5, 0.01) - equal).shows_error)
+        self.assertFalse(block_mean([0.5]).shows_error)
 
     def test_a_resolution_is_the_least_error(self):
         equal, apart, one = block_mean([0.5, 0.5]), block_mean([0.4, 0.6]), block_mean([0.5])

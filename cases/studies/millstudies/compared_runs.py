@@ -31,14 +31,19 @@ class Verdict:
     figure: str
 
 
+def sign_of(mean):
+    """Mean.sign; 0 for an error of 0 of blocks that are equal: they are too coarse to show one."""
+    return mean.sign if mean.shows_error else 0
+
+
 def by_sign(difference):
-    """The verdict on a statement that a Mean is positive."""
-    return {1: CONFIRMED, -1: CONTRADICTED, 0: UNDECIDED}[difference.sign]
+    """The verdict on a statement that a Mean is positive (sign_of)."""
+    return {1: CONFIRMED, -1: CONTRADICTED, 0: UNDECIDED}[sign_of(difference)]
 
 
 def all_positive(*differences):
     """The verdict on a statement that all of some Means are positive: one that is negative contradicts it."""
-    signs = [difference.sign for difference in differences]
+    signs = [sign_of(difference) for difference in differences]
     return CONTRADICTED if -1 in signs else CONFIRMED if all(sign == 1 for sign in signs) else UNDECIDED
 
 

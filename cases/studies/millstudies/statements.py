@@ -14,7 +14,8 @@ from millfoam.report.steadiness import flow_steadiness
 
 from .axial_slices import jackknife
 from .compared_runs import (CONFIRMED, CONTRADICTED, LARGE, NOT_TESTED, SLICE, UNDECIDED, Runs, Verdict, Which,
-                            all_positive, by_sign, by_turn, height, judged, over_turns, unlike, unread, withheld)
+                            all_positive, by_sign, by_turn, height, judged, over_turns, sign_of, unlike, unread,
+                            withheld)
 from .run_readings import read_run
 
 # Of a flat surface, at most: degrees; deviation from its line over the mill's diameter
@@ -263,7 +264,7 @@ def larger_drop(less, more):
         return verdict
     floor = max(Mean(0.0), Mean(CLEARLY * less.value, CLEARLY * less.error, less.freedom), key=lambda one: one.value)
     verdict = by_sign(more - floor)
-    return UNDECIDED if verdict == CONFIRMED and more.sign <= 0 else verdict
+    return UNDECIDED if verdict == CONFIRMED and sign_of(more) <= 0 else verdict
 
 
 def pressure_drops(runs):

@@ -52,10 +52,13 @@ class Mean:
 
     @property
     def sign(self) -> int:
-        """1 or -1 if the value is further from zero than `reach`, otherwise 0, also if the error is not known, or is 0
-        and not exact."""
-        known = self.error > 0 or np.isinf(self.freedom)
-        return int(np.sign(self.value)) if known and abs(self.value) > self.reach else 0
+        """1 or -1 if the value is further from zero than `reach`, otherwise 0, also if the error is not known."""
+        return int(np.sign(self.value)) if abs(self.value) > self.reach else 0
+
+    @property
+    def shows_error(self) -> bool:
+        """Whether its error is known, and not 0 of blocks that are equal."""
+        return self.error > 0 or (self.error == 0 and bool(np.isinf(self.freedom)))
 
     def text(self, unit: str, scale: float = 1.0, form: str = ".1f") -> str:
         """Value and error times `scale`, in a format, with a unit: `1.2 ± 0.1 mm`."""
