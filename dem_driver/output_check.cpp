@@ -141,14 +141,15 @@ std::optional<long> last_good_restart(const CaseFolder& folder, const DemPlan& p
     if (restart_complaint(restart->file, plan.charge.balls()).empty() &&
         whole_averages(folder, plan, restart->step) &&
         (!plan.watches_contacts || has_contact_state(folder.dem(), restart->step)) &&
-        whole_part(folder, plan, restart->step - plan.restart_steps, restart->step))
+        whole_part(folder, plan, restart->step - plan.restart_steps, restart->step) &&
+        rows_complaint(folder, plan, restart->step).empty())
       return restart->step;
   }
   return std::nullopt;
 }
 
 OutputCheck::OutputCheck(const CaseFolder& folder, const DemPlan& plan, long start)
-    : folder_(folder), plan_(plan), next_dump_(start) {
+    : folder_(folder), plan_(plan), start_(start), next_dump_(start) {
   const long every = plan.contact_steps;
   if (every > 0) next_contacts_ = (start + every - 1) / every * every;
 }
@@ -171,6 +172,13 @@ void OutputCheck::restart(long step) {
   const fs::path file = folder_.dem() / ("restart." + std::to_string(step));
   const std::string complaint = restart_complaint(file, plan_.charge.balls());
   if (!complaint.empty()) stop(folder_, plan_, file, complaint);
+  if (rows_.empty())
+    for (const RowKind& kind : row_kinds(folder_, plan_))
+      rows_.emplace_back(folder_, kind, start_, plan_.step.steps_per_record);
+  for (RowCheck& rows : rows_) {
+    const std::string wrong = rows.complaint(step);
+    if (!wrong.empty()) stop(folder_, plan_, rows.file(), wrong);
+  }
   if (!whole_averages(folder_, plan_, step))
     stop(folder_, plan_, averages_files(folder_.dem(), 0).checkpoint(step),
          "there is no state of the averages of this step, expected one");

@@ -4,9 +4,11 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "dem_driver/case_folder.hpp"
 #include "dem_driver/dem_plan.hpp"
+#include "dem_driver/record_rows.hpp"
 
 namespace millfoam::dem_driver {
 
@@ -23,10 +25,9 @@ std::string dump_complaint(const std::filesystem::path& file, long entries);
 /// up to its last byte.
 std::string restart_complaint(const std::filesystem::path& file, long balls);
 
-/// Step of the last restart file that is complete, as are the averages of the run at that step and all dumps
-/// of the part of the run that ends with it;
-/// nothing when there is none. The dumps of earlier parts were checked before their restart files were
-/// removed.
+/// Step of the last restart file that is complete, as are the averages of the run at that step, all dumps of
+/// the part of the run that ends with it, and all rows of torque, energy and what row_kinds has; nothing when
+/// there is none. The dumps of earlier parts were checked before their restart files were removed.
 std::optional<long> last_good_restart(const CaseFolder& folder, const DemPlan& plan);
 
 /// Checks the files that LIGGGHTS writes while it runs, because LIGGGHTS itself does not: on a full disk it
@@ -41,14 +42,17 @@ class OutputCheck {
   /// Dumps that are not there are counted at the end.
   void dumps_until(long step);
 
-  /// The restart file of a step, after the dumps up to it. Throws RunError as above.
+  /// The restart file of a step, after the dumps up to it, and the rows up to it that were not yet checked.
+  /// Throws RunError as above.
   void restart(long step);
 
  private:
   const CaseFolder& folder_;
   const DemPlan& plan_;
+  long start_;
   long next_dump_;
   long next_contacts_ = 0;
+  std::vector<RowCheck> rows_;  ///< of the segments that the run writes
 };
 
 }  // namespace millfoam::dem_driver

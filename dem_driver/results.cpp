@@ -13,6 +13,7 @@
 
 #include "dem_driver/deck_outputs.hpp"
 #include "dem_driver/json_file.hpp"
+#include "dem_driver/record_rows.hpp"
 #include "dem_driver/segments.hpp"
 #include "dem_driver/time_step.hpp"
 #include "dem_driver/wall_parts.hpp"
@@ -31,6 +32,23 @@ void expect_columns(const SegmentLine& line, std::size_t columns) {
 
 long step_of(const SegmentLine& line) {
   return std::lround(line.values.front());
+}
+
+/// The rows of all segments of a kind.
+std::map<long, SegmentLine> rows_by_step(const CaseFolder& folder, const std::string& kind,
+                                         std::size_t columns) {
+  std::map<long, SegmentLine> rows;
+  for (const auto& line : read_segments(folder, kind)) {
+    expect_columns(line, columns);
+    rows[step_of(line)] = line;
+  }
+  return rows;
+}
+
+/// Throws std::runtime_error for a row whose step has no row of another kind.
+[[noreturn]] void refuse_single(const SegmentLine& line, const std::string& other) {
+  throw std::runtime_error(line.file.string() + ":" + std::to_string(line.line) + ": no row of step " +
+                           std::to_string(step_of(line)) + " in " + other + ".*.txt, expected one");
 }
 
 template <typename Value>
@@ -174,20 +192,19 @@ void write_fluid(std::ostream& out, const Results& results) {
 }  // namespace
 
 std::vector<HistoryRow> read_history(const CaseFolder& folder) {
-  std::map<long, HistoryRow> rows;
-  for (const auto& line : read_segments(folder, "torque")) {
-    expect_columns(line, 2);
-    rows[step_of(line)].torque = line.values[1];
-  }
-  for (const auto& line : read_segments(folder, "energy")) {
-    expect_columns(line, 3);
-    const auto row = rows.find(step_of(line));
-    if (row == rows.end()) continue;  // step 0, before which there is no torque
-    row->second = {row->first, row->second.torque, line.values[1], line.values[2]};
-  }
+  const auto torques = rows_by_step(folder, "torque", 2);
+  auto energies = rows_by_step(folder, "energy", 3);
+  // Before the run's first step there is no torque
+  const auto segments = find_segments(folder, "energy");
+  if (!segments.empty()) energies.erase(segments.front().step);
   std::vector<HistoryRow> history;
-  std::transform(rows.begin(), rows.end(), std::back_inserter(history),
-                 [](const auto& entry) { return entry.second; });
+  for (const auto& [step, torque] : torques) {
+    const auto energy = energies.find(step);
+    if (energy == energies.end()) refuse_single(torque, "energy");
+    history.push_back({step, torque.values[1], energy->second.values[1], energy->second.values[2]});
+  }
+  for (const auto& [step, energy] : energies)
+    if (torques.count(step) == 0) refuse_single(energy, "torque");
   return history;
 }
 
@@ -255,6 +272,8 @@ Results gather_results(const CaseFolder& folder, const meshing::Mill& mill, cons
   if (static_cast<long>(results.history.size()) + 1 != plan.records)
     throw RunError(folder.dem().string() + ": " + std::to_string(results.history.size()) +
                    " records of torque and energy, expected " + std::to_string(plan.records - 1));
+  const std::string lost = rows_complaint(folder, plan, plan.end_step());
+  if (!lost.empty()) throw RunError(lost);
   if (mill.machine() == meshing::Machine::stirred) {
     results.turn = mill.turn() / (plan.step.value * static_cast<double>(plan.step.steps_per_record));
     results.part_torques = read_part_torques(folder, find_walls(folder, mill));

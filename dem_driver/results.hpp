@@ -25,8 +25,9 @@ struct HistoryRow {
   double potential = 0;  ///< against the mill's axis, or a stirred mill's base, J
 };
 
-/// What LIGGGHTS has written of the turning mill, one row per record after step 0. Throws std::runtime_error
-/// naming file and line where it cannot be read.
+/// What LIGGGHTS has written of the turning mill, one row per record after the run's begin. Throws
+/// std::runtime_error naming file and line where it cannot be read, and where a step has only its torque or
+/// only its energies.
 std::vector<HistoryRow> read_history(const CaseFolder& folder);
 
 /// Torque of the charge on each wall of a stirred mill.
@@ -80,8 +81,8 @@ struct Results {
 };
 
 /// Reads what LIGGGHTS has written and judges it. Throws as read_history, read_overlaps and gather_contacts
-/// do, and RunError when LIGGGHTS has not written a record of torque and energy for every dump, or none of
-/// the fluid.
+/// do, and RunError when LIGGGHTS has not written a row of torque and energy for every record, or of what
+/// else row_kinds has.
 Results gather_results(const CaseFolder& folder, const meshing::Mill& mill, const DemPlan& plan,
                        const RunResult& run);
 

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "dem_driver/output_check.hpp"
+#include "dem_driver/record_rows.hpp"
 #include "dem_driver/run_file.hpp"
 #include "dem_driver/segments.hpp"
 #include "meshing/files/text_numbers.hpp"
@@ -86,9 +87,14 @@ std::optional<long> last_usable_restart(const CaseFolder& folder, const DemPlan&
   // That of the run's begin is another run's
   if (restarts.empty() || restarts.back().step <= plan.begin) return std::nullopt;
   const auto step = last_good_restart(folder, plan);
-  if (!step || *step != restarts.back().step)
-    out << restarts.back().file.string()
-        << ": this file, or a dump before it, is not complete and is not used\n";
+  if (!step || *step != restarts.back().step) {
+    const NumberedFile& last = restarts.back();
+    const bool whole = restart_complaint(last.file, plan.charge.balls()).empty();
+    const std::string lost = whole ? rows_complaint(folder, plan, last.step) : "";
+    out << (lost.empty()
+                ? last.file.string() + ": this file, or a dump before it, is not complete and is not used\n"
+                : lost + "; so " + last.file.string() + " is not used\n");
+  }
   if (!step || *step <= plan.begin) return std::nullopt;
   return step;
 }
@@ -115,8 +121,9 @@ std::optional<long> resumable(const CaseFolder& folder, const DemPlan& plan, con
     require_resumable(folder, plan, *step);
   } else if (complete) {
     throw std::runtime_error(folder.dem().string() +
-                             ": no complete restart file with the averages of its step, expected one from "
-                             "which the complete run is made longer" +
+                             ": no complete restart file with the averages of its step, and with all rows of "
+                             "torque and energy before it, expected one from which the complete run is made "
+                             "longer" +
                              otherwise);
   }
   return step;

@@ -5,7 +5,6 @@
 #include <charconv>
 #include <fstream>
 #include <limits>
-#include <optional>
 #include <sstream>
 #include <stdexcept>
 
@@ -40,18 +39,6 @@ std::vector<NumberedFile> find_numbered(const fs::path& folder, const std::strin
   return found;
 }
 
-/// The numbers of a line, or nothing when a word is none.
-std::optional<std::vector<double>> numbers(const std::string& line) {
-  std::vector<double> values;
-  std::istringstream in(line);
-  for (std::string word; in >> word;) {
-    char* end = nullptr;
-    values.push_back(std::strtod(word.c_str(), &end));
-    if (*end != '\0') return std::nullopt;
-  }
-  return values;
-}
-
 /// All lines of numbers; the last one only if its line end is there.
 std::vector<SegmentLine> read_file(const fs::path& file) {
   std::ifstream in(file);
@@ -60,7 +47,7 @@ std::vector<SegmentLine> read_file(const fs::path& file) {
   for (long number = 1; std::getline(in, text); ++number) {
     if (in.eof()) break;
     if (text.empty() || text.front() == '#') continue;
-    const auto values = numbers(text);
+    const auto values = numbers_of(text);
     if (!values || values->empty())
       throw std::runtime_error(file.string() + ":" + std::to_string(number) + ": '" + text +
                                "', expected numbers only");
@@ -78,6 +65,17 @@ std::vector<NumberedFile> find_states(const CaseFolder& folder) {
 }
 
 }  // namespace
+
+std::optional<std::vector<double>> numbers_of(const std::string& line) {
+  std::vector<double> values;
+  std::istringstream in(line);
+  for (std::string word; in >> word;) {
+    char* end = nullptr;
+    values.push_back(std::strtod(word.c_str(), &end));
+    if (*end != '\0') return std::nullopt;
+  }
+  return values;
+}
 
 std::vector<fs::path> find_averages(const CaseFolder& folder) {
   std::vector<fs::path> found;

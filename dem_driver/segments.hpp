@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,9 @@ std::string contacts_complaint(const CaseFolder& folder, const DemPlan& plan, lo
 
 /// Every complete restart file, `dem/restart.<step>`, by step.
 std::vector<NumberedFile> find_restarts(const CaseFolder& folder);
+
+/// The numbers of a line; nothing when a word is none.
+std::optional<std::vector<double>> numbers_of(const std::string& line);
 
 /// A line of numbers of a segment and its place.
 struct SegmentLine {

@@ -38,7 +38,7 @@ std::vector<std::string> find_walls(const CaseFolder& folder, const meshing::Mil
                              ", run millMesh first");
   };
   if (mill.machine() == meshing::Machine::stirred) {
-    for (const char* part : {impeller_part, "shell", "base", "lid"})
+    for (const char* part : stirred_parts)
       if (!take(part)) refuse(part, "");
     require_fit(walls, mill.geometry);
     return parts;

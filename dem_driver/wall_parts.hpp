@@ -21,6 +21,8 @@ std::string wall_checksums(const CaseFolder& folder, const std::vector<std::stri
 
 /// Wall of a stirred mill that turns.
 inline constexpr char impeller_part[] = "impeller";
+/// All walls of a stirred mill.
+inline constexpr const char* stirred_parts[] = {impeller_part, "shell", "base", "lid"};
 /// The walls that turn: all of a tumbling mill's; of a stirred mill's the impeller alone.
 std::vector<std::string> turning_parts(const meshing::Mill& mill, const std::vector<std::string>& parts);
 

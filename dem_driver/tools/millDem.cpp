@@ -23,6 +23,7 @@
 #include "dem_driver/forecast.hpp"
 #include "dem_driver/liggghts_run.hpp"
 #include "dem_driver/plan_report.hpp"
+#include "dem_driver/record_rows.hpp"
 #include "dem_driver/results.hpp"
 #include "dem_driver/resumption.hpp"
 #include "dem_driver/run_file.hpp"
@@ -58,11 +59,13 @@ struct Options {
 };
 
 /// Prepares the folder for LIGGGHTS: to resume at `step`, or for a new run.
-void prepare(const dem_driver::CaseFolder& folder, std::optional<long> step) {
+void prepare(const dem_driver::CaseFolder& folder, const dem_driver::DemPlan& plan,
+             std::optional<long> step) {
   if (step) {
     dem_driver::remove_results(folder);
     dem_driver::remove_dumps_after(folder, *step);
     dem_driver::remove_restarts_after(folder, *step);
+    dem_driver::cut_rows_after(folder, plan, *step);
     return;
   }
   const auto removed = dem_driver::prepare_folders(folder);
@@ -160,7 +163,7 @@ void run(const Options& options, const meshing::MillDescription& description) {
   } else {
     dem_driver::require_programs(plan, options.ranks);
     dem_driver::require_room(folder, plan, step.value_or(plan.begin));
-    prepare(folder, step);
+    prepare(folder, plan, step);
     if (state && !step) dem_driver::take_restart(*state, folder);
   }
   write_fluid(folder, mill, plan, parts);

@@ -28,6 +28,7 @@ class FailingRun : public ::testing::Test {
     const Variable path("PATH", temporary_.path().string() + ":" + std::getenv("PATH"));
     const Variable program("MILLFOAM_LIGGGHTS", (temporary_.path() / "liggghts").string());
     prepare_folders(folder_);
+    tests::write_rows(folder_, plan_, plan_.end_step());
     std::ostringstream progress;
     return message_of([&] { run_liggghts(folder_, plan_, ranks, {progress, false}); });
   }
@@ -122,9 +123,26 @@ TEST_F(FailingRun, TheLastGoodRestartFileIsKeptWhenTheNextHadNoRoom) {
   EXPECT_EQ(last_good_restart(folder_, plan_), 100);
 }
 
+TEST_F(FailingRun, ALostLineOfEnergiesStopsTheRunAtTheNextRestartFileAndTheOneBeforeIsKept) {
+  tests::write_restart(temporary_.path() / "good", {250});
+  const std::string record = std::to_string(plan_.step.steps_per_record);
+  const std::string twice = std::to_string(2 * plan_.step.steps_per_record);
+  const std::string message =
+      complaint(turning + "cp ../../good restart." + record + "\necho 'millFoam restart " + record +
+                "'\nsleep 1\nsed -i '/^" + twice + " /d' energy.0.txt\ncp ../../good restart." + twice +
+                "\necho 'millFoam restart " + twice + "'\nsleep 60");
+  EXPECT_EQ(message.find((folder_.dem() / "energy.0.txt").string() + ": "), 0u) << message;
+  EXPECT_NE(message.find("bytes without a whole line of step " + twice + ", expected one; "),
+            std::string::npos)
+      << message;
+  EXPECT_NE(message.find("--resume continues from step " + record), std::string::npos) << message;
+  EXPECT_EQ(last_good_restart(folder_, plan_), plan_.step.steps_per_record);
+}
+
 TEST_F(FailingRun, WithAFlowTheRestartFileBeforeTheLastIsKeptToo) {
   tests::write_restart(temporary_.path() / "good", {250});
-  std::string script = turning;
+  std::string script = turning + "echo " + std::to_string(plan_.step.steps_per_record) +
+                       " 0 0 0 0 0 0 0 0 0 0 > fluid.0.txt\n";
   for (const std::string step : {"100", "200", "300"})
     script += "cp ../../good restart." + step + "\necho 'millFoam restart " + step + "'\n";
   const auto kept = [&] {

@@ -40,8 +40,9 @@ class OutputCheckTest : public ::testing::Test {
   std::filesystem::path restart(long part) const {
     return folder_.dem() / ("restart." + std::to_string(part * plan_.restart_steps));
   }
-  /// Whole dumps of all records of so many parts.
+  /// Whole dumps, torques and energies of all records of so many parts.
   void write_parts(long parts) const {
+    tests::write_rows(folder_, plan_, parts * plan_.restart_steps);
     for (long record = 0; record <= parts * plan_.restart_steps / plan_.step.steps_per_record; ++record)
       write(dump(record), dump_of(250));
   }

@@ -63,6 +63,7 @@ TEST_F(ResultsTest, TheHistoryIsWithoutWhatTheKilledRunWroteAfterItsLastRestartF
 
 TEST_F(ResultsTest, AHalfLineAtTheEndOfAKilledRunIsLeftOut) {
   write("dem/torque.0.txt", "10 1\n20 0.12");
+  write("dem/energy.0.txt", "0 1 1\n10 1 1\n");
   EXPECT_EQ(read_history(folder_).size(), 1u);
 }
 
@@ -78,8 +79,22 @@ TEST_F(ResultsTest, ALineWithANumberTooManyIsRefusedWithFileAndLine) {
   EXPECT_NE(message.find("torque.0.txt:1: 3 numbers, expected 2"), std::string::npos) << message;
 }
 
+TEST_F(ResultsTest, ATorqueWithoutItsEnergiesIsRefusedAndSoAreEnergiesWithoutTheirTorque) {
+  write("dem/torque.0.txt", "10 1\n20 2\n30 3\n");
+  write("dem/energy.0.txt", "0 1 1\n10 1 1\n30 1 1\n");
+  EXPECT_EQ(
+      message_of([&] { read_history(folder_); }),
+      (folder_.dem() / "torque.0.txt").string() + ":2: no row of step 20 in energy.*.txt, expected one");
+  write("dem/torque.0.txt", "20 2\n");
+  write("dem/energy.0.txt", "0 1 1\n10 1 1\n20 1 1\n");
+  EXPECT_EQ(
+      message_of([&] { read_history(folder_); }),
+      (folder_.dem() / "energy.0.txt").string() + ":2: no row of step 10 in torque.*.txt, expected one");
+}
+
 TEST_F(ResultsTest, RecordsThatAreMissingAreCounted) {
   write("dem/torque.0.txt", "10 1\n20 2\n");
+  write("dem/energy.0.txt", "0 1 1\n10 1 1\n20 1 1\n");
   const auto mill = tests::small_mill();
   const std::string message = message_of([&] { gather_results(folder_, mill, plan_dem(mill), {}); });
   EXPECT_NE(message.find("dem: 2 records of torque and energy, expected 30"), std::string::npos) << message;

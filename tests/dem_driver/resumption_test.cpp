@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <iterator>
 #include <sstream>
 
 #include "dem_driver/folder_preparation.hpp"
+#include "dem_driver/record_rows.hpp"
 #include "dem_driver/run_file.hpp"
 #include "small_mill.hpp"
 
@@ -34,6 +36,10 @@ class Resumption : public ::testing::Test {
   static void write(const std::filesystem::path& file, const std::string& text) {
     std::ofstream(file, std::ios::binary) << text;
   }
+  static std::string read(const std::filesystem::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
   std::filesystem::path restart(long step) const {
     return folder_.dem() / ("restart." + std::to_string(step));
   }
@@ -45,6 +51,7 @@ class Resumption : public ::testing::Test {
       out << "ITEM: TIMESTEP\n" << at << "\nITEM: NUMBER OF ATOMS\n250\nBOX\n0 1\n0 1\n0 1\nITEM: ATOMS id\n";
       for (int ball = 1; ball <= 250; ++ball) out << ball << '\n';
     }
+    tests::write_rows(folder_, plan_, step);
     tests::write_restart(restart(step), {250});
   }
   void complete_run() const {
@@ -85,6 +92,28 @@ TEST_F(Resumption, AnInterruptedRunWithoutAWholeRestartFileStartsAgain) {
   EXPECT_EQ(step(plan_), std::nullopt);
   EXPECT_NE(said_.str().find("is not complete and is not used"), std::string::npos);
   std::filesystem::remove(restart(plan_.restart_steps));
+  EXPECT_EQ(step(plan_), std::nullopt);
+}
+
+TEST_F(Resumption, ARunWithALostOrACutRowResumesAtTheRestartFileBeforeIt) {
+  run_to(2 * plan_.restart_steps);
+  tests::write_restart(restart(plan_.restart_steps), {250});
+  EXPECT_EQ(step(plan_), 2 * plan_.restart_steps);
+  const auto file = folder_.dem() / "energy.0.txt";
+  const std::string rows = read(file);
+  const std::string lost = std::to_string(plan_.restart_steps + plan_.step.steps_per_record);
+  const auto at = rows.find('\n' + lost + ' ') + 1;
+  const auto end = rows.find('\n', at);
+  // The whole line, a part of it, its line end
+  for (const auto begin : {at, at + 2, end}) {
+    write(file, rows.substr(0, begin) + rows.substr(end + 1));
+    EXPECT_EQ(step(plan_), plan_.restart_steps) << begin - at;
+    EXPECT_NE(said_.str().find(file.string() + ": "), std::string::npos) << said_.str();
+    EXPECT_NE(said_.str().find("step " + lost), std::string::npos) << said_.str();
+  }
+  cut_rows_after(folder_, plan_, plan_.restart_steps);
+  EXPECT_EQ(read(file), rows.substr(0, at));
+  write(file, "");
   EXPECT_EQ(step(plan_), std::nullopt);
 }
 

@@ -112,6 +112,16 @@ void write_restart(const fs::path& file, const std::vector<int>& balls_of_ranks)
   }
 }
 
+void write_rows(const CaseFolder& folder, const DemPlan& plan, long step) {
+  std::ofstream torque(folder.dem() / "torque.0.txt"), energy(folder.dem() / "energy.0.txt");
+  torque << "# Time-averaged data for fix torque\n# TimeStep v_torque\n";
+  energy << "# Time-averaged data for fix energy\n# TimeStep c_kinetic c_potential\n0 1 -2\n";
+  for (long at = plan.step.steps_per_record; at <= step; at += plan.step.steps_per_record) {
+    torque << at << " -1\n";
+    energy << at << " 1 -2\n";
+  }
+}
+
 nlohmann::json read_json(const fs::path& file) {
   std::ifstream in(file);
   return nlohmann::json::parse(in);

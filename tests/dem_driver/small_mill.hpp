@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "dem_driver/case_folder.hpp"
+#include "dem_driver/dem_plan.hpp"
 #include "meshing/mill/mill.hpp"
 
 namespace millfoam::dem_driver::tests {
@@ -31,6 +32,9 @@ class TemporaryFolder {
 
 /// Writes a file whose end is that of LIGGGHTS' restart files, one block of so many balls for each rank.
 void write_restart(const std::filesystem::path& file, const std::vector<int>& balls_of_ranks);
+
+/// Writes the torques and energies of the records up to a step: torque -1 N m, energies 1 and -2 J.
+void write_rows(const CaseFolder& folder, const DemPlan& plan, long step);
 
 /// Writes `walls/shell.stl` of a smooth drum, 60 flat sides.
 void write_drum(const CaseFolder& folder, const meshing::Geometry& geometry);
