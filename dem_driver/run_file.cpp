@@ -10,7 +10,8 @@ namespace millfoam::dem_driver {
 
 namespace fs = std::filesystem;
 
-void write_run_file(const CaseFolder& folder, const meshing::Mill& mill, const DemPlan& plan) {
+void write_run_file(const CaseFolder& folder, const meshing::Mill& mill, const DemPlan& plan,
+                    const std::map<std::string, std::string>& walls) {
   Json run = begin_result("dumps", mill);
   run["timestep_s"] = plan.step.value;
   run["interval"] = plan.step.steps_per_record;
@@ -25,6 +26,7 @@ void write_run_file(const CaseFolder& folder, const meshing::Mill& mill, const D
     run["fluid"]["file_id"] = plan.fluid.file_id;
     run["fluid"]["time"] = name_of(plan.fluid.time);
   }
+  if (!walls.empty()) run["wall_files"] = walls;
   write_json(folder.run_file(), run);
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 
 #include "dem_driver/case_folder.hpp"
@@ -11,8 +12,10 @@
 namespace millfoam::dem_driver {
 
 /// Writes `dumps/run.json`: time-step, interval and number of the dumps, speed, begin, duration, mass of the
-/// charge and fluid. The file appears whole or not at all.
-void write_run_file(const CaseFolder& folder, const meshing::Mill& mill, const DemPlan& plan);
+/// charge, fluid and walls. The file appears whole or not at all.
+/// @param walls  wall_fingerprints at the run's begin; empty: they are left out
+void write_run_file(const CaseFolder& folder, const meshing::Mill& mill, const DemPlan& plan,
+                    const std::map<std::string, std::string>& walls = {});
 
 /// What a `run.json` says of its complete run.
 struct CompleteRun {

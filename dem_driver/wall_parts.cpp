@@ -57,11 +57,18 @@ std::vector<std::string> find_walls(const CaseFolder& folder, const meshing::Mil
   return parts;
 }
 
+std::map<std::string, std::string> wall_fingerprints(const CaseFolder& folder,
+                                                     const std::vector<std::string>& parts) {
+  std::map<std::string, std::string> fingerprints;
+  for (const auto& part : parts) fingerprints[part] = file_fingerprint(folder.walls() / (part + ".stl"));
+  return fingerprints;
+}
+
 std::string wall_checksums(const CaseFolder& folder, const std::vector<std::string>& parts) {
   std::ostringstream lines;
+  const auto fingerprints = wall_fingerprints(folder, parts);
   for (const auto& part : parts)
-    lines << "# wall " << part << ".stl " << without_zeros(file_fingerprint(folder.walls() / (part + ".stl")))
-          << '\n';
+    lines << "# wall " << part << ".stl " << without_zeros(fingerprints.at(part)) << '\n';
   return lines.str();
 }
 

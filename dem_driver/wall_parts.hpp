@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,10 @@ namespace millfoam::dem_driver {
 /// Each file is read. Throws std::runtime_error naming the first `walls/<part>.stl` that is missing, that
 /// read_wall refuses, or with which the walls are not those of this mill (require_fit).
 std::vector<std::string> find_walls(const CaseFolder& folder, const meshing::Mill& mill);
+
+/// Fingerprint (FNV-1a, 16 hexadecimal digits) of the file of each wall, by its name without `.stl`.
+std::map<std::string, std::string> wall_fingerprints(const CaseFolder& folder,
+                                                     const std::vector<std::string>& parts);
 
 /// One line of comment for each wall with a checksum (FNV-1a) of its file: a deck that has them belongs to
 /// these walls only.

@@ -69,6 +69,16 @@ std::optional<RunMetadata> read_run_metadata(const std::filesystem::path& folder
   }
 }
 
+std::map<std::string, std::string> read_run_walls(const std::filesystem::path& folder) {
+  using Fingerprints = std::map<std::string, std::string>;
+  try {
+    const auto run = JsonObject::read(folder / "run.json");
+    return run ? run->find<Fingerprints>("wall_files").value_or(Fingerprints()) : Fingerprints();
+  } catch (const JsonError& error) {
+    throw DumpError(error.what());
+  }
+}
+
 void require_dumps(const RunMetadata& metadata) {
   if (metadata.dumps.value_or(1) > 0) return;
   throw DumpError(metadata.file.string() +

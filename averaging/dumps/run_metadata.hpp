@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -32,6 +33,10 @@ struct RunMetadata {
 /// `interval` that is not a positive whole number, and other values of another kind than above. A key that is
 /// null counts as not there.
 std::optional<RunMetadata> read_run_metadata(const std::filesystem::path& folder);
+
+/// Fingerprints of the files of the run's walls by their names without `.stl`, key `wall_files` of `run.json`
+/// in a folder; none without the file or the key. Throws DumpError where it cannot be read.
+std::map<std::string, std::string> read_run_walls(const std::filesystem::path& folder);
 
 /// Throws DumpError, naming the file, for a run that wrote no dumps.
 void require_dumps(const RunMetadata& metadata);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <iostream>
+#include <map>
 #include <sstream>
 #include <stdexcept>
 #include <string_view>
@@ -159,7 +160,8 @@ std::string take_from_mill(const meshing::MillDescription& description, Options&
   const meshing::MillFingerprints& of = mill.fingerprint;
   const fs::path dumps = fs::path(options.case_folder) / "dumps";
   const bool others = request_others(options), own_windows = has_windows(options);
-  if (options.dumps.empty()) {
+  const bool own_dumps = !options.dumps.empty();
+  if (!own_dumps) {
     const RunMetadata run = metadata_of(dumps);
     require_dumps_of(run, "charge", run.mill_charge, of.charge);
     require_dumps_of(run, "walls", run.mill_walls, of.walls);
@@ -175,6 +177,8 @@ std::string take_from_mill(const meshing::MillDescription& description, Options&
     if (options.walls.empty()) {
       meshing::require_walls_of(walls, mill);
       meshing::require_written_walls(walls);
+      const auto used = own_dumps ? std::map<std::string, std::string>() : read_run_walls(dumps);
+      if (!used.empty()) meshing::require_walls_of_run(walls, used, (dumps / "run.json").string());
     }
     take_grid(mill, options);
   }

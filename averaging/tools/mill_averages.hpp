@@ -11,9 +11,10 @@ namespace millfoam::averaging {
 
 /// Fills what the options leave open from the section `averages` of a mill and the layout of its case's
 /// folder: dumps, walls, grid, method, windows, start and output. A start `steady` is `steady_from_s` of
-/// `dumps/results.json`; windows that the dry run does not fill are left out. With the windows of the mill,
-/// all dumps of the run are expected. Returns the fingerprint of the mill's averages, or an empty text where
-/// the options request others.
+/// `dumps/results.json`; windows that the dry run does not fill are left out. Of dumps in another folder,
+/// given windows are taken as they are. With the windows of the mill, all dumps of the run are expected. The
+/// walls must be those of the dry run (`wall_files` of its `run.json`). Returns the fingerprint of the mill's
+/// averages, or an empty text where the options request others.
 ///
 /// Throws MillError, and std::invalid_argument for dumps or walls of another mill, where no window is left,
 /// and as take_grid.

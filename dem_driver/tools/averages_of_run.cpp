@@ -13,6 +13,7 @@
 #include "averaging/run/solids_output.hpp"
 #include "averaging/tools/mill_averages.hpp"
 #include "meshing/mill/mill_error.hpp"
+#include "meshing/walls/wall_files.hpp"
 #include "millfoam_version.hpp"
 
 namespace millfoam::dem_driver {
@@ -69,8 +70,9 @@ bool judge(const averaging::SolidsSummary& summary, double tolerance, std::ostre
 }  // namespace
 
 AveragesOfRun::AveragesOfRun(const meshing::MillDescription& description, const CaseFolder& folder,
+                             const std::map<std::string, std::string>& walls,
                              const std::vector<std::string>& options, DemPlan& plan, std::ostream& out)
-    : mill_(description.mill), folder_(folder), plan_(plan) {
+    : mill_(description.mill), folder_(folder), walls_(walls), plan_(plan) {
   std::vector<std::string> texts = options;
   if (mill_.averages.live) texts.insert(texts.begin(), "");
   if (texts.empty() && !mill_.dem.dumps)
@@ -81,6 +83,7 @@ AveragesOfRun::AveragesOfRun(const meshing::MillDescription& description, const 
     requests_.push_back(averaging::live_request(description, text, folder.root.string(), plan.begin_time(),
                                                 plan.duration(), plan.step.value));
   require_different_outputs(requests_);
+  require_walls();
   plan.averages_bytes = 0;
   for (const averaging::LiveRequest& averages : requests_) {
     const averaging::AverageRequest& request = averages.request;
@@ -94,6 +97,14 @@ AveragesOfRun::AveragesOfRun(const meshing::MillDescription& description, const 
     plan.averages.push_back(averages_id(request));
     order_.averages.push_back({plan.averages.back(), request});
   }
+}
+
+void AveragesOfRun::require_walls() const {
+  std::error_code none;
+  for (const averaging::LiveRequest& averages : requests_)
+    for (const fs::path& wall : averages.request.walls)
+      if (fs::equivalent(wall.parent_path(), folder_.walls(), none))
+        return meshing::require_walls_of_run(folder_.walls(), walls_, "those with which it began");
 }
 
 void AveragesOfRun::write_order() const {
@@ -134,6 +145,7 @@ bool AveragesOfRun::finish_one(std::size_t number, bool keep, std::ostream& out)
 
 void AveragesOfRun::finish(bool keep, std::ostream& out) const {
   bool passes = true;
+  require_walls();
   for (std::size_t n = 0; n < requests_.size(); ++n) passes = finish_one(n, keep, out) && passes;
   if (!passes) throw std::runtime_error("the averages are beyond their --tolerance, see above");
 }

@@ -17,12 +17,14 @@ namespace millfoam::dem_driver {
 class AveragesOfRun {
  public:
   /// Checks them as millAverage does, and notes them in the plan. The plan must have its begin.
+  /// @param walls  wall_fingerprints of the run
   /// @param options  a text of millAverage's options for each
   /// @param out  gets sentences about them
   /// Throws meshing::KeyError where nothing could be averaged at all (`dem.dumps: no`), and
   /// std::runtime_error or std::invalid_argument.
   AveragesOfRun(const meshing::MillDescription& description, const CaseFolder& folder,
-                const std::vector<std::string>& options, DemPlan& plan, std::ostream& out);
+                const std::map<std::string, std::string>& walls, const std::vector<std::string>& options,
+                DemPlan& plan, std::ostream& out);
 
   /// Writes the file for millLiggghts, or removes that of an earlier run.
   void write_order() const;
@@ -34,10 +36,13 @@ class AveragesOfRun {
   void finish(bool keep, std::ostream& out) const;
 
  private:
+  /// Throws std::runtime_error where the averages take the case's walls, and these are not the run's.
+  void require_walls() const;
   bool finish_one(std::size_t number, bool keep, std::ostream& out) const;
 
   const meshing::Mill& mill_;
   const CaseFolder& folder_;
+  std::map<std::string, std::string> walls_;  ///< fingerprints
   const DemPlan& plan_;
   AveragesOrder order_;
   std::vector<averaging::LiveRequest> requests_;

@@ -143,7 +143,8 @@ void run(const Options& options, const meshing::MillDescription& description) {
     dem_driver::continue_from(state->step, plan);
   }
   if (!options.with_flow.empty()) dem_driver::meet_flow(options.with_flow, mill, plan);
-  const dem_driver::AveragesOfRun averages(description, folder, options.averages, plan, std::cout);
+  const auto walls = dem_driver::wall_fingerprints(folder, parts);
+  const dem_driver::AveragesOfRun averages(description, folder, walls, options.averages, plan, std::cout);
   std::ostringstream deck;
   dem_driver::write_deck(deck, mill, plan, parts, options.ranks);
   deck << dem_driver::wall_checksums(folder, parts);
@@ -192,7 +193,7 @@ void run(const Options& options, const meshing::MillDescription& description) {
   const auto results = dem_driver::gather_results(folder, mill, plan, result);
   dem_driver::write_results_files(folder, mill, plan, results);
   // Only now, so that the dumps of a broken run are not taken for a complete one.
-  dem_driver::write_run_file(folder, mill, plan);
+  dem_driver::write_run_file(folder, mill, plan, walls);
   dem_driver::print_results(std::cout, plan, results);
   averages.finish(false, std::cout);
 }

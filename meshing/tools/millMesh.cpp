@@ -75,6 +75,12 @@ void replace_walls(const WallSurface& surface, Ends ends, const fs::path& folder
   }
 }
 
+/// Throws std::runtime_error for walls of another origin, which only --walls may replace.
+void keep_unknown_walls(const Options& options, const Mill& mill, const WallSurface& surface) {
+  if (options.case_folder.empty() || options.walls_only) return;
+  require_known_walls(surface, mill.geometry.ends, fs::path(options.case_folder) / "walls");
+}
+
 /// DEM time to which the mesh is turned, s.
 double mesh_time(const Options& options, const Mill& mill) {
   if (options.time) return *options.time;
@@ -129,6 +135,7 @@ void run_stirred(const Options& options, const MillDescription& description) {
             << wall_report(surface, volume, closed_form, allowed_stirred_volume_error) << std::flush;
   require_stirred_volume(volume, closed_form);
   require_no_needles(surface);
+  keep_unknown_walls(options, mill, surface);
   // A mesh that is refused shall not cost a dry run
   if (mill.has_flow()) mesh_stirred(options, description);
   if (!options.case_folder.empty())
@@ -156,6 +163,7 @@ void run(const Options& options, const MillDescription& description) {
   require_no_needles(surface);
   if (options.case_folder.empty()) return;
 
+  keep_unknown_walls(options, mill, surface);
   const fs::path folder = options.case_folder;
   write_for_dry_run(description, surface, of_walls, folder, options.walls_only);
   if (options.walls_only) return;
@@ -178,7 +186,7 @@ int main(int argc, char** argv) {
       app.add_flag("--quality", "print the mesh's quality against its limits; writes with --case only");
   app.add_flag("--walls", options.walls_only,
                "write walls/ and mill.json only, which the dry run needs; replaces walls from CAD, which "
-               "stay otherwise");
+               "stay otherwise, and walls of unknown origin, which are refused otherwise");
   app.add_option(
          "--at-time", options.time,
          "DEM time in s that the flow's mesh is turned to [averages.start, or time0_s of DIR/solids.json]; "

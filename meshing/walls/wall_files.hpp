@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
+#include <string>
 #include <vector>
 
 #include "meshing/mill/mill.hpp"
@@ -30,5 +32,17 @@ bool has_cad_walls(const std::filesystem::path& folder);
 /// Throws std::runtime_error where walls.json of a folder, whose walls are complete, names other files than
 /// those next to it.
 void require_written_walls(const std::filesystem::path& folder);
+
+/// Throws std::runtime_error naming the first STL file of a folder that is not one of a dry run's walls, or
+/// is missing.
+/// @param folder  of the walls
+/// @param used  fingerprint of the file of each wall of the run, by its name without `.stl`
+/// @param source  of `used`, for the message
+void require_walls_of_run(const std::filesystem::path& folder, const std::map<std::string, std::string>& used,
+                          const std::string& source);
+
+/// Throws std::runtime_error naming the first STL file that write_walls would replace by another surface, or
+/// remove, in a folder without walls.json: millMesh has not written it.
+void require_known_walls(const WallSurface& surface, Ends ends, const std::filesystem::path& folder);
 
 }  // namespace millfoam::meshing

@@ -171,6 +171,9 @@ TEST(CaseFolder, TheRunFileGivesWhatReadersOfTheDumpsNeedToFullPrecision) {
                             {"fluid", {{"kind", "none"}}},
                             {"charge_mass_kg", plan.charge.mass()},
                             {"fines_mass_kg", mill.charge.classes.at(0).mass}}));
+  write_run_file(folder, mill, plan, {{"shell", "0123456789abcdef"}});
+  EXPECT_EQ(tests::read_json(folder.run_file())["wall_files"],
+            (nlohmann::json{{"shell", "0123456789abcdef"}}));
 }
 
 /// A drum with plain ends, whose shell is closed at both or only at its feed end.

@@ -258,6 +258,13 @@ class LiveAverages(unittest.TestCase):
             self.run_mill(case, "--average", "--box 30 30 0 60 60 30 --shape 9 9 9 --window 0.05 -o box.h5")
         self.assertFalse((case / "box.h5").exists())
 
+    def test_a_wall_that_is_not_one_of_the_run_is_refused_before_anything_is_made(self):
+        case = self.make_case()
+        shutil.copy(case / "walls" / "shell.stl", case / "walls" / "other.stl")
+        with self.assertRaisesRegex(RunError, "walls/other.stl: is not a wall of the dry run"):
+            self.run_mill(case, *LIVE)
+        self.assertFalse((case / "dumps").exists())
+
     def test_allrun_takes_them_for_the_stage_of_the_averages(self):
         case = self.make_case(MILL.replace("duration: 0.2", "duration: 0.1"))
         command = (f"export MILLFOAM_NP=1; . {os.environ['MILLFOAM_DIR']}/scripts/case_functions; "

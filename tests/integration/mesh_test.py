@@ -59,6 +59,18 @@ class Mesh(unittest.TestCase):
         self.assertIn("removed: walls/feedEnd.stl, which is not a wall of this mill", output.replace("./", ""))
         self.assertNotIn(lifters.name, output)
 
+    def test_walls_without_walls_json_are_only_replaced_with_walls_alone(self):
+        case = Path(tempfile.mkdtemp(prefix="walls-"))
+        self.addCleanup(shutil.rmtree, case)
+        (case / "walls").mkdir()
+        shell = case / "walls" / "shell.stl"
+        shell.write_text("solid cad\nendsolid cad\n")
+        with self.assertRaisesRegex(RunError, "walls/shell.stl: millMesh has not written this file, .*--walls"):
+            run(case, "millMesh", SLICE, "--case", ".")
+        self.assertEqual(shell.read_text(), "solid cad\nendsolid cad\n")
+        self.assertFalse((case / "constant").exists())
+        self.assertIn("replaced: ", run(case, "millMesh", SLICE, "--case", ".", "--walls"))
+
     def refused(self, command, words):
         """A command in an empty folder fails with these words and leaves nothing but its log."""
         case = Path(tempfile.mkdtemp(prefix="refused-"))

@@ -11,6 +11,7 @@
 #include "averaging/run/cell_setup.hpp"
 #include "averaging/statistics/time_windows.hpp"
 #include "averaging/tools/live_options.hpp"
+#include "meshing/files/file_fingerprint.hpp"
 #include "tests/averaging/test_support.hpp"
 
 namespace millfoam::averaging {
@@ -149,6 +150,30 @@ TEST_F(MillAverages, WallsOfAnotherMillAreRefusedUnlessTheyAreFromCadOrNotUsed) 
   taken("");
   folder_.write("walls/walls.json", "{");
   expect_named(message_of<std::runtime_error>([&] { taken(""); }), {"walls.json", "run millMesh again"});
+}
+
+TEST_F(MillAverages, WallsThatAreNotThoseOfTheDryRunAreRefusedUnlessTheyAreNotUsed) {
+  const auto shell = folder_.write("walls/shell.stl", "a shell");
+  // Walls from CAD have no fingerprint of a mill
+  folder_.write("walls/walls.json", R"({"mill": {}, "source": "cad"})");
+  taken("");
+  folder_.write("dumps/run.json", R"({"timestep_s": 1e-5, "duration_s": 0.2, "wall_files": {"shell": ")" +
+                                      file_fingerprint(shell) + R"("}})");
+  taken("");
+  folder_.write("walls/shell.stl", "another shell");
+  expect_named(message_of<std::runtime_error>([&] { taken(""); }),
+               {"walls/shell.stl: the wall is another one", "dumps/run.json", "run millDem again"});
+  taken("--inside " + path("other.stl"));
+  taken("--box 0 0 0 1 1 1 --shape 2 2 2");
+  folder_.write("walls/shell.stl", "a shell");
+  const auto lifters = folder_.write("walls/lifters.stl", "lifters");
+  expect_named(message_of<std::runtime_error>([&] { taken(""); }),
+               {"walls/lifters.stl: is not a wall of the dry run"});
+  std::filesystem::remove(lifters);
+  std::filesystem::remove(shell);
+  expect_named(message_of<std::runtime_error>([&] { taken(""); }), {"walls/shell.stl: no such file"});
+  folder_.write("dumps/run.json", R"({"timestep_s": 1e-5, "duration_s": 0.2, "wall_files": 3})");
+  expect_named(message_of<DumpError>([&] { taken(""); }), {"run.json: key 'wall_files' is 3"});
 }
 
 TEST_F(MillAverages, MoreVoxelsThanAMillMayHaveAreRefused) {

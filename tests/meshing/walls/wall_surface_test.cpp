@@ -164,6 +164,32 @@ TEST(Walls, of_a_periodic_slice_or_a_smooth_drum_leave_no_file_of_an_earlier_mil
   EXPECT_TRUE(has("feedEnd.stl"));
 }
 
+TEST(WallFiles, of_unknown_origin_are_not_replaced) {
+  const TemporaryFolder folder;
+  const WallSurface surface = walls_of(ordinary_mills()[3]);
+  const auto complaint = [&](Ends ends) {
+    try {
+      require_known_walls(surface, ends, folder.path());
+    } catch (const std::runtime_error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(complaint(Ends::plain), "");
+  write_walls(surface, Ends::plain, folder.path());
+  std::filesystem::remove(folder.path() / "walls.json");
+  EXPECT_EQ(complaint(Ends::plain), "") << "the same surface";
+  EXPECT_EQ(complaint(Ends::periodic)
+                .find((folder.path() / "feedEnd.stl").string() + ": millMesh has not written this file"),
+            0u)
+      << "it would be removed";
+  folder.write("shell.stl", "solid cad\nendsolid cad\n");
+  EXPECT_NE(complaint(Ends::plain).find("shell.stl: millMesh has not written this file"), std::string::npos);
+  EXPECT_NE(complaint(Ends::plain).find("--walls"), std::string::npos);
+  folder.write("walls.json", "{}");
+  EXPECT_EQ(complaint(Ends::plain), "");
+}
+
 TEST(WallFiles, that_are_not_those_of_walls_json_are_refused) {
   const TemporaryFolder folder;
   const MillDescription description = describe_mill(folder.write("mill.yaml", example_mill));
