@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 
 #include "meshing/files/file_fingerprint.hpp"
 #include "meshing/files/json_object.hpp"
@@ -79,12 +80,24 @@ void write_wall_results(const std::optional<MillDescription>& description, const
   write_json(walls_folder / walls_results_name, json);
 }
 
-std::optional<double> start_of_flow(const Mill& mill, const std::filesystem::path& case_folder) {
-  if (mill.averages.start) return mill.averages.start;
-  if (!mill.flow.balls) return 0;
-  const auto solids = JsonObject::read(case_folder / "solids.json", ": run millAverage again");
-  if (!solids) return std::nullopt;
-  return solids->get<double>("time0_s");
+FlowBegin start_of_flow(const Mill& mill, const std::filesystem::path& case_folder) {
+  const std::optional<double>& start = mill.averages.start;
+  if (!mill.flow.balls) return {start.value_or(0), ""};
+  const std::filesystem::path file = case_folder / "solids.json";
+  const auto solids = JsonObject::read(file, ": run millAverage again");
+  if (!solids) {
+    if (start) return {*start, ""};
+    return {0,
+            "averages.start is 'steady' and there is no solids.json yet: the mesh is turned to DEM time 0; "
+            "call millMesh again after millAverage"};
+  }
+  const auto of_mill = solids->find_object("mill");
+  const std::string found = of_mill ? of_mill->find<std::string>("averages").value_or("") : "";
+  if (found.empty() || found == mill.fingerprint.averages) return {solids->get<double>("time0_s"), ""};
+  const std::string others = file.string() + ": the averages are of another mill (averages " + found +
+                             ", this mill's are " + mill.fingerprint.averages + ")";
+  if (!start) throw std::runtime_error(others + ": run millDem and millAverage again, with walls by --walls");
+  return {*start, others + ": the mesh is turned to averages.start; call millMesh again after millAverage"};
 }
 
 }  // namespace millfoam::meshing

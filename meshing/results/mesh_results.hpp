@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 
 #include "meshing/mill/mill_reader.hpp"
 #include "meshing/mill_mesh/openings.hpp"
@@ -23,9 +24,17 @@ void write_mesh_results(const MillDescription& description, const VolumeMesh& me
 void write_wall_results(const std::optional<MillDescription>& description, const WallSurface& walls,
                         double volume, const std::filesystem::path& walls_folder);
 
-/// DEM time to which the flow's mesh is turned, s: `averages.start`, or, where that is `steady`, `time0_s` of
-/// the `solids.json` in the case's folder; nothing while there is none. A flow without balls begins at 0.
-/// Throws std::runtime_error for a solids.json that has no time0_s.
-std::optional<double> start_of_flow(const Mill& mill, const std::filesystem::path& case_folder);
+/// DEM time to which a flow's mesh is turned.
+struct FlowBegin {
+  double time = 0;   ///< s
+  std::string note;  ///< a sentence where it may still change; otherwise empty
+};
+
+/// When the flow of a case begins: at `time0_s` of its folder's `solids.json`. While there is none of this
+/// mill's averages, at `averages.start`, or at 0 where that is `steady`. Averages without a fingerprint may
+/// be any mill's. A flow without balls begins at `averages.start`, or 0. Throws std::runtime_error for a
+/// solids.json that cannot be read or has no time0_s, and, where `averages.start` is `steady`, for one of
+/// another mill's averages.
+FlowBegin start_of_flow(const Mill& mill, const std::filesystem::path& case_folder);
 
 }  // namespace millfoam::meshing

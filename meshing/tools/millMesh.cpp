@@ -84,12 +84,9 @@ void keep_unknown_walls(const Options& options, const Mill& mill, const WallSurf
 /// DEM time to which the mesh is turned, s.
 double mesh_time(const Options& options, const Mill& mill) {
   if (options.time) return *options.time;
-  const auto start = start_of_flow(mill, options.case_folder);
-  if (!start)
-    std::cout << "note: averages.start is 'steady' and there is no solids.json yet: the mesh is turned to "
-                 "DEM time 0; "
-                 "call millMesh again after millAverage\n";
-  return start.value_or(0);
+  const FlowBegin start = start_of_flow(mill, options.case_folder);
+  if (!start.note.empty()) std::cout << "note: " << start.note << '\n';
+  return start.time;
 }
 
 /// Writes what the dry run needs: the walls, which enclose a volume (m^3), and the resolved mill. Walls from
@@ -189,7 +186,7 @@ int main(int argc, char** argv) {
                "stay otherwise, and walls of unknown origin, which are refused otherwise");
   app.add_option(
          "--at-time", options.time,
-         "DEM time in s that the flow's mesh is turned to [averages.start, or time0_s of DIR/solids.json]; "
+         "DEM time in s that the flow's mesh is turned to [time0_s of DIR/solids.json, or averages.start]; "
          "the walls stay at 0")
       ->check(time_of_run);
   add_polygon_commands(app);
