@@ -138,19 +138,22 @@ double warned(const SteadyStart& start) {
   return start.time;
 }
 
-/// Start, window and end: whole windows up to the end of the dry run, or one with all records. A run that
-/// continues another begins at its end, and averages.start counts from there.
+/// Window, start and end, where the options leave them open: whole windows up to the end of the dry run, or
+/// one with all records. A run that continues another begins at its end, and averages.start counts from
+/// there. Several windows of the options, and one that is longer than the run, have no end.
 void take_windows(const meshing::Mill& mill, const fs::path& dumps, const RunMetadata& run,
                   Options& options) {
-  const double window = mill.averages.window;
+  const bool of_mill = options.windows.empty();
   const double begin = run.begin.value_or(0), duration = run.duration.value_or(mill.dem.duration);
-  const double start =
-      mill.averages.start ? begin + *mill.averages.start : warned(steady_start(dumps / "results.json"));
-  if (!mill.averages.whole_run)
-    options.end =
-        last_whole_window(start, begin + duration, duration, window, agreed_timestep(options.timestep, run));
-  options.windows = {mill.averages.whole_run ? "whole" : exact(window)};
-  options.start = start;
+  if (of_mill) options.windows = {mill.averages.whole_run ? "whole" : exact(mill.averages.window)};
+  if (!options.start)
+    options.start =
+        mill.averages.start ? begin + *mill.averages.start : warned(steady_start(dumps / "results.json"));
+  if (options.end || options.windows.size() > 1) return;
+  const double window = to_number(options.windows.front()).value_or(0);  // 0: of the whole run
+  if (!(window > 0) || (!of_mill && *options.start + window > begin + duration)) return;
+  options.end = last_whole_window(*options.start, begin + duration, duration, window,
+                                  agreed_timestep(options.timestep, run));
 }
 
 }  // namespace
@@ -168,7 +171,7 @@ std::string take_from_mill(const meshing::MillDescription& description, Options&
     require_dumps(run);
     options.dumps = pattern_in(dumps, "dump.*.txt{,.gz}");
     options.whole_run_dumped = !own_windows;
-    if (!own_windows) take_windows(mill, dumps, run, options);
+    take_windows(mill, dumps, run, options);
   } else if (!own_windows) {
     throw std::invalid_argument("--dumps: for dumps in another folder, also give --window and --start");
   }

@@ -236,6 +236,31 @@ TEST_F(MillAverages, TheirWindowsEndWithTheLastWholeOne) {
   expect_named(message_of<DumpError>([&] { taken(""); }), {"run.json", "timestep_s"});
 }
 
+TEST_F(MillAverages, WhatTheOptionsLeaveOpenOfWindowStartAndEndIsThatOfTheMill) {
+  const auto expect = [&](const std::string& text, const std::vector<std::string>& windows, double start,
+                          std::optional<double> end) {
+    const Options options = taken(text);
+    EXPECT_EQ(options.windows, windows) << text;
+    ASSERT_TRUE(options.start) << text;
+    EXPECT_DOUBLE_EQ(*options.start, start) << text;
+    ASSERT_EQ(options.end.has_value(), end.has_value()) << text;
+    EXPECT_DOUBLE_EQ(options.end.value_or(0), end.value_or(0)) << text;
+    EXPECT_EQ(fingerprint, "") << text;
+  };
+  expect("--window 0.04", {"0.04"}, 0.05, 0.17);
+  expect("--start 0.1", {"0.03"}, 0.1, 0.19);
+  expect("--end 0.12", {"0.03"}, 0.05, 0.12);
+  expect("--window 0.04 --start 0.02", {"0.04"}, 0.02, 0.18);
+  expect("--window whole", {"whole"}, 0.05, std::nullopt);
+  expect("--window 0.02 0.03", {"0.02", "0.03"}, 0.05, std::nullopt);
+  expect("--window 0.5", {"0.5"}, 0.05, std::nullopt);
+  // A run that continues another one
+  folder_.write("dumps/run.json", R"({"timestep_s": 1e-5, "begin_s": 0.5, "duration_s": 0.2})");
+  expect("--window 0.04", {"0.04"}, 0.55, 0.67);
+  // Dumps in another folder have no run whose begin is known
+  EXPECT_FALSE(taken("--dumps x --window 0.04").start);
+}
+
 TEST_F(MillAverages, WithTheirWindowsAllDumpsOfTheRunAreExpected) {
   const Options options = taken("");
   EXPECT_EQ(options.dumps, path("dumps/dump.*.txt{,.gz}"));
