@@ -48,11 +48,18 @@ void require_cover(const averaging::SlurryReader& reader, const meshing::Geometr
                                     : "periodic, expected voxels that are not, as the mill has ends"));
 }
 
-void require_windows(const averaging::SlurryReader& reader) {
-  if (reader.header().windows > 0) return;
-  throw SlurryFileError(reader.path().string() +
-                        ": has no time windows, only a mean over the run; expected a flow's slurry.h5, or "
-                        "--fluid-time mean");
+/// The windows must share some time with the run.
+void require_windows(const averaging::SlurryReader& reader, const DemPlan& plan) {
+  if (reader.header().windows == 0)
+    throw SlurryFileError(reader.path().string() +
+                          ": has no time windows, only a mean over the run; expected a flow's slurry.h5, or "
+                          "--fluid-time mean");
+  const auto [first, last] = reader.span();
+  const double begin = plan.begin_time(), end = begin + plan.duration();
+  if (first < end && last > begin) return;
+  throw SlurryFileError(reader.path().string() + ": the time windows are from " + shown(first) + " to " +
+                        shown(last) + " s of DEM time, and the run is from " + shown(begin) + " to " +
+                        shown(end) + " s; expected windows in this time, or --fluid-time mean");
 }
 
 }  // namespace
@@ -97,7 +104,7 @@ FluidSettings require_fluid_of(const std::filesystem::path& file, FluidTime time
   if (time == FluidTime::mean) {
     require_slow_drag(reader.mean(), reader.grid(), limits, source);
   } else {
-    require_windows(reader);
+    require_windows(reader, plan);
     for (std::size_t window = 0; window < reader.header().windows; ++window)
       require_slow_drag(reader.window(window), reader.grid(), limits, source);
   }

@@ -37,8 +37,9 @@ void require_slow_drag(const averaging::BallFields& fields, const averaging::Box
 
 /// A flow's forces for a run of this mill. All fields that the run will use are read. Throws
 /// averaging::SlurryFileError as SlurryReader does, and for a file of another mill, for voxels that do not
-/// cover the mill or are not periodic as it is, and for a drag that is too strong for the plan's time-step;
-/// the message names the file, what was found and what was expected.
+/// cover the mill or are not periodic as it is, for time windows of which none is in the run, and for a drag
+/// that is too strong for the plan's time-step; the message names the file, what was found and what was
+/// expected. The plan must have its begin.
 FluidSettings require_fluid_of(const std::filesystem::path& file, FluidTime time, const meshing::Mill& mill,
                                const DemPlan& plan);
 

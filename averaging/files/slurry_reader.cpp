@@ -139,6 +139,10 @@ const std::filesystem::path& SlurryReader::path() const {
   return file_->path;
 }
 
+std::array<double, 2> SlurryReader::span() const {
+  return {file_->begin.front(), file_->end.back()};
+}
+
 double SlurryReader::middle(std::size_t window) const {
   return (file_->begin.at(window) + file_->end.at(window)) / 2;
 }

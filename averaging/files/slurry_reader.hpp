@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <filesystem>
 #include <memory>
@@ -58,6 +59,8 @@ class SlurryReader {
   const BoxGrid& grid() const;                ///< of the voxels
   const BallFieldsHeader& header() const;     ///< what holds for the whole file
   const std::filesystem::path& path() const;  ///< of the file
+  /// Begin of the first window and end of the last one, DEM time, s. There must be windows.
+  std::array<double, 2> span() const;
   /// Middle of a window, DEM time, s.
   double middle(std::size_t window) const;
 

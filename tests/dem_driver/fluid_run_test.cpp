@@ -175,6 +175,23 @@ TEST_F(FluidRun, FlowsOfAnotherMillAndVoxelsThatDoNotFitItAreRefused) {
   EXPECT_NE(complaint(content).find("the voxels are not periodic along the axis"), std::string::npos);
 }
 
+TEST_F(FluidRun, TimeWindowsOfWhichNoneIsInTheRunAreRefused) {
+  tests::write_slurry(slurry, flow_of_small_mill(1));  // from 0 to 1 s
+  DemPlan plan = plan_dem(small_mill());
+  const auto complaint = [&](FluidTime time) {
+    return message_of([&] { require_fluid_of(slurry, time, small_mill(), plan); });
+  };
+  EXPECT_EQ(complaint(FluidTime::windows), "");
+  const long later = 4 * plan.turning_steps;  // 1.2 s
+  continue_from(later, plan);
+  EXPECT_NE(complaint(FluidTime::windows)
+                .find("slurry.h5: the time windows are from 0 to 1 s of DEM time, and the run is from 1.2 to "
+                      "1.5 s"),
+            std::string::npos)
+      << complaint(FluidTime::windows);
+  EXPECT_EQ(complaint(FluidTime::mean), "");
+}
+
 TEST_F(FluidRun, TheLedgerJoinsTheSegmentsOfAResumedRun) {
   std::filesystem::create_directories(folder.dem());
   const auto sums = [](double x) {
