@@ -15,7 +15,8 @@ namespace {
 constexpr double longest_time_step = 1;  // s, above that of any ball
 constexpr long restarts = 50;            // of a run, unless it is short
 constexpr long fewest_records_per_restart = 10;
-constexpr long most_records_per_overlaps = 10;
+constexpr long usual_records_per_overlaps = 10;
+constexpr long fewest_records_per_overlaps = 5;
 
 /// About a fiftieth of all records, so that the run, and what was before its begin, are whole numbers of such
 /// parts wherever they can be: the histograms of the overlaps are written one for each part.
@@ -92,8 +93,11 @@ long DemPlan::total_steps() const {
 
 long DemPlan::overlap_steps() const {
   const long restart = restart_steps / step.steps_per_record;
-  long part = std::min(restart, most_records_per_overlaps);
+  long part = std::min(restart, usual_records_per_overlaps);
   while (restart % part != 0) --part;
+  // Every record, as of 13, would cost too much
+  if (part < fewest_records_per_overlaps)
+    for (part = std::min(restart, usual_records_per_overlaps); restart % part != 0;) ++part;
   return part * step.steps_per_record;
 }
 
@@ -131,8 +135,14 @@ void meet_flow(const std::filesystem::path& folder, const meshing::Mill& mill, D
   plan.fluid.file = std::filesystem::absolute(folder);
   plan.fluid.averages = averages_in_words(mill);
   plan.fluid.shapes = shape_drag_of(mill);
-  const long records = std::lround(mill.flow.write_interval / mill.dem.record_interval);
-  plan.restart_steps = std::max(1L, records) * plan.step.steps_per_record;
+  const double records = mill.flow.write_interval / mill.dem.record_interval;
+  const double whole = std::round(records);
+  if (!(whole >= 1) || std::abs(records - whole) > 1e-9 * whole)
+    throw meshing::KeyError("flow.write_interval", shown(mill.flow.write_interval),
+                            "a whole number of times dem.record_interval, " +
+                                shown(mill.dem.record_interval) +
+                                " s, with --with-flow: balls and flow resume at the same times");
+  plan.restart_steps = std::lround(whole) * plan.step.steps_per_record;
 }
 
 void continue_from(long step, DemPlan& plan) {

@@ -40,9 +40,12 @@ struct DemPlan {
   long insertions() const;     ///< single insertions of all rounds; each takes one step
   long resting_steps() const;  ///< of insertions and settling together; 0 of a run that continues another
   long total_steps() const;    ///< of insertions, settling and turning mill together
-  long overlap_steps() const;  ///< between two records whose overlaps are counted
-  double begin_time() const;   ///< DEM time at `begin`, s
-  double duration() const;     ///< s of turning mill, from `begin` on
+  /// Between two records whose overlaps are counted: five to ten records, so that whole parts of this length
+  /// fill the time between two restart files; where none does, the shortest part of more records. All records
+  /// where a restart file is written after fewer than five.
+  long overlap_steps() const;
+  double begin_time() const;  ///< DEM time at `begin`, s
+  double duration() const;    ///< s of turning mill, from `begin` on
 };
 
 /// Most steps of the turning mill, and most of the settling one; a run of more is refused, because it would
@@ -63,8 +66,8 @@ DemPlan plan_dem(const meshing::Mill& mill);
 void continue_from(long step, DemPlan& plan);
 
 /// Lets the balls feel a flow that runs at the same time and meets them in `folder`: a restart file is
-/// written whenever the flow's fields are, so that both can resume at the same time. The interval of the flow
-/// must be a whole number of records; else the nearest number is taken.
+/// written whenever the flow's fields are, so that both can resume at the same time. Throws meshing::KeyError
+/// where flow.write_interval is not a whole number of dem.record_interval.
 void meet_flow(const std::filesystem::path& folder, const meshing::Mill& mill, DemPlan& plan);
 
 /// Number of dumps of the contacts from the run's begin to a step.

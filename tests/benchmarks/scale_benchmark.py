@@ -223,8 +223,9 @@ def run_balls(case, balls, copies, ranks):
     """Runs all parts; returns their Result."""
     for name in ("dem", "exchange"):
         shutil.rmtree(case / name, ignore_errors=True)
+    record = json.loads((case / "mill.json").read_text())["mill"]["dem"]["record_interval"]
     run(case, "millDem", MILL, "--case", ".", "--deck-only", "--with-flow", "exchange", "-np", ranks,
-        *settings(sizes(copies)))
+        *settings({**sizes(copies), "flow.write_interval": record}))
     dem, steps = case / "dem", steps_of(balls)
     (dem / "in.scale").write_text(scale_deck((dem / "in.mill").read_text(), steps))
     step = set_orders(dem, balls, steps)

@@ -375,10 +375,11 @@ TEST(Deck, ContactsAndTheirBallsAreDumpedAtTheNearestWholeNumberOfSteps) {
   EXPECT_LT(deck.find("dump pairs"), deck.find("upto every"));
 }
 
-TEST(Deck, OverlapsAreCountedAtEveryTenthRecordOrAtTheNearestThatDividesTheRestarts) {
+TEST(Deck, OverlapsAreCountedAtEveryTenthRecordOrAtAnotherThatDividesTheRestarts) {
   DemPlan plan = plan_dem(tests::small_mill());
   const long record = plan.step.steps_per_record;
-  for (const auto& [restart, expected] : {std::pair{20L, 10L}, {25L, 5L}, {7L, 7L}, {13L, 1L}, {1L, 1L}}) {
+  for (const auto& [restart, expected] :
+       {std::pair{20L, 10L}, {25L, 5L}, {7L, 7L}, {13L, 13L}, {22L, 11L}, {16L, 8L}, {1L, 1L}}) {
     plan.restart_steps = restart * record;
     EXPECT_EQ(plan.overlap_steps(), expected * record) << restart;
     std::ostringstream deck;

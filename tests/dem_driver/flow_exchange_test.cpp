@@ -331,7 +331,7 @@ TEST_F(FlowExchangeTest, refuses_forces_that_are_not_finite_or_too_strong) {
 TEST(FluidOrderOfAFlow, comes_back_from_its_file) {
   const tests::TemporaryFolder folder;
   meshing::Mill mill = tests::small_mill();
-  mill.flow.write_interval = 3.2 * mill.dem.record_interval;
+  mill.flow.write_interval = 3 * mill.dem.record_interval;
   mill.averages.voxels = {{-0.02, -0.02, 0}, {0.02, 0.02, mill.geometry.length}, {4, 4, 2}};
   mill.averages.method = "sample";
   mill.averages.template_points = 9;
@@ -401,6 +401,7 @@ TEST(FluidOrderOfAFlow, changes_the_deck_with_the_averages_that_the_flow_gets) {
   meshing::Mill mill = tests::small_mill();
   mill.averages.voxels = {{-0.02, -0.02, 0}, {0.02, 0.02, 0.01}, {4, 4, 2}};
   mill.averages.method = "exact";
+  mill.flow.write_interval = mill.dem.record_interval;
   const auto words = [&] {
     DemPlan plan = plan_dem(mill);
     meet_flow("exchange", mill, plan);
@@ -417,9 +418,17 @@ TEST(FluidOrderOfAFlow, changes_the_deck_with_the_averages_that_the_flow_gets) {
   EXPECT_NE(words().find("on 5 x 5 x 2 voxels"), std::string::npos);
 }
 
-TEST(FluidOrderOfAFlow, has_a_restart_file_at_least_at_every_record) {
+TEST(FluidOrderOfAFlow, has_a_restart_file_whenever_the_flow_is_written_after_whole_records) {
   meshing::Mill mill = tests::small_mill();
-  mill.flow.write_interval = 0.1 * mill.dem.record_interval;
+  for (const double records : {0.1, 3.2}) {
+    mill.flow.write_interval = records * mill.dem.record_interval;
+    DemPlan plan = plan_dem(mill);
+    const std::string message = tests::message_of([&] { meet_flow("exchange", mill, plan); });
+    EXPECT_NE(message.find("flow.write_interval"), std::string::npos) << message;
+    EXPECT_NE(message.find("a whole number of times dem.record_interval, 0.01 s"), std::string::npos)
+        << message;
+  }
+  mill.flow.write_interval = mill.dem.record_interval;
   DemPlan plan = plan_dem(mill);
   meet_flow("exchange", mill, plan);
   EXPECT_EQ(plan.restart_steps, plan.step.steps_per_record);
