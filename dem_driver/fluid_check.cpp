@@ -48,18 +48,11 @@ void require_cover(const averaging::SlurryReader& reader, const meshing::Geometr
                                     : "periodic, expected voxels that are not, as the mill has ends"));
 }
 
-/// The windows must share some time with the run.
-void require_windows(const averaging::SlurryReader& reader, const DemPlan& plan) {
-  if (reader.header().windows == 0)
-    throw SlurryFileError(reader.path().string() +
-                          ": has no time windows, only a mean over the run; expected a flow's slurry.h5, or "
-                          "--fluid-time mean");
-  const auto [first, last] = reader.span();
-  const double begin = plan.begin_time(), end = begin + plan.duration();
-  if (first < end && last > begin) return;
-  throw SlurryFileError(reader.path().string() + ": the time windows are from " + shown(first) + " to " +
-                        shown(last) + " s of DEM time, and the run is from " + shown(begin) + " to " +
-                        shown(end) + " s; expected windows in this time, or --fluid-time mean");
+void require_windows(const averaging::SlurryReader& reader) {
+  if (reader.header().windows > 0) return;
+  throw SlurryFileError(reader.path().string() +
+                        ": has no time windows, only a mean over the run; expected a flow's slurry.h5, or "
+                        "--fluid-time mean");
 }
 
 }  // namespace
@@ -104,7 +97,7 @@ FluidSettings require_fluid_of(const std::filesystem::path& file, FluidTime time
   if (time == FluidTime::mean) {
     require_slow_drag(reader.mean(), reader.grid(), limits, source);
   } else {
-    require_windows(reader, plan);
+    require_windows(reader);
     for (std::size_t window = 0; window < reader.header().windows; ++window)
       require_slow_drag(reader.window(window), reader.grid(), limits, source);
   }
@@ -115,6 +108,16 @@ FluidSettings require_fluid_of(const std::filesystem::path& file, FluidTime time
   fluid.time = time;
   fluid.shapes = shapes;
   return fluid;
+}
+
+void require_windows_in_run(const FluidSettings& fluid, const DemPlan& plan) {
+  if (fluid.kind != FluidKind::slurry || fluid.time != FluidTime::windows) return;
+  const auto [first, last] = averaging::SlurryReader(fluid.file).span();
+  const double begin = plan.begin_time(), end = begin + plan.duration();
+  if (first < end && last > begin) return;
+  throw SlurryFileError(fluid.file.string() + ": the time windows are from " + shown(first) + " to " +
+                        shown(last) + " s of DEM time, and the run is from " + shown(begin) + " to " +
+                        shown(end) + " s; expected windows in this time, or --fluid-time mean");
 }
 
 }  // namespace millfoam::dem_driver

@@ -37,10 +37,13 @@ void require_slow_drag(const averaging::BallFields& fields, const averaging::Box
 
 /// A flow's forces for a run of this mill. All fields that the run will use are read. Throws
 /// averaging::SlurryFileError as SlurryReader does, and for a file of another mill, for voxels that do not
-/// cover the mill or are not periodic as it is, for time windows of which none is in the run, and for a drag
-/// that is too strong for the plan's time-step; the message names the file, what was found and what was
-/// expected. The plan must have its begin.
+/// cover the mill or are not periodic as it is, and for a drag that is too strong for the plan's time-step;
+/// the message names the file, what was found and what was expected.
 FluidSettings require_fluid_of(const std::filesystem::path& file, FluidTime time, const meshing::Mill& mill,
                                const DemPlan& plan);
+
+/// Throws averaging::SlurryFileError, naming both times, where a fluid has time windows of which none shares
+/// some time with the run. The plan must have its begin.
+void require_windows_in_run(const FluidSettings& fluid, const DemPlan& plan);
 
 }  // namespace millfoam::dem_driver

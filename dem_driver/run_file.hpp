@@ -12,8 +12,8 @@
 namespace millfoam::dem_driver {
 
 /// Writes `dumps/run.json`: time-step, interval and number of the dumps, speed, begin, duration, mass of the
-/// charge, fluid and walls. The file appears whole or not at all.
-/// @param walls  wall_fingerprints at the run's begin; empty: they are left out
+/// charge, fluid, and `walls`, which are wall_fingerprints at the run's begin and are left out where empty.
+/// The file appears whole or not at all.
 void write_run_file(const CaseFolder& folder, const meshing::Mill& mill, const DemPlan& plan,
                     const std::map<std::string, std::string>& walls = {});
 

@@ -129,6 +129,11 @@ void run(const Options& options, const meshing::MillDescription& description) {
                             "direct with --with-flow: it gives the voxels on which balls and slurry meet");
   if (!options.fluid.empty() && mill.dem.pool_level)
     throw meshing::KeyError("dem.fluid", "buoyancy", "none with --fluid, which has the buoyancy of its flow");
+  if (!options.fluid.empty())
+    plan.fluid = dem_driver::require_fluid_of(
+        options.fluid,
+        options.fluid_time == "windows" ? dem_driver::FluidTime::windows : dem_driver::FluidTime::mean, mill,
+        plan);
   if (!options.with_flow.empty() && mill.dem.pool_level)
     throw meshing::KeyError("dem.fluid", "buoyancy",
                             "none with --with-flow, which has the buoyancy of its flow");
@@ -137,11 +142,7 @@ void run(const Options& options, const meshing::MillDescription& description) {
     state = dem_driver::last_state({options.continued}, folder, parts, mill, plan);
     dem_driver::continue_from(state->step, plan);
   }
-  if (!options.fluid.empty())
-    plan.fluid = dem_driver::require_fluid_of(
-        options.fluid,
-        options.fluid_time == "windows" ? dem_driver::FluidTime::windows : dem_driver::FluidTime::mean, mill,
-        plan);
+  dem_driver::require_windows_in_run(plan.fluid, plan);
   if (!options.with_flow.empty()) dem_driver::meet_flow(options.with_flow, mill, plan);
   const auto walls = dem_driver::wall_fingerprints(folder, parts);
   const dem_driver::AveragesOfRun averages(description, folder, walls, options.averages, plan, std::cout);

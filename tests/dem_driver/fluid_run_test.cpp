@@ -179,7 +179,8 @@ TEST_F(FluidRun, TimeWindowsOfWhichNoneIsInTheRunAreRefused) {
   tests::write_slurry(slurry, flow_of_small_mill(1));  // from 0 to 1 s
   DemPlan plan = plan_dem(small_mill());
   const auto complaint = [&](FluidTime time) {
-    return message_of([&] { require_fluid_of(slurry, time, small_mill(), plan); });
+    return message_of(
+        [&] { require_windows_in_run(require_fluid_of(slurry, time, small_mill(), plan), plan); });
   };
   EXPECT_EQ(complaint(FluidTime::windows), "");
   const long later = 4 * plan.turning_steps;  // 1.2 s
