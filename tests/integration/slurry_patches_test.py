@@ -3,12 +3,13 @@
 """slurryFoam where the box is not closed and rigid: a piston under a pool (deforming mesh), feed and overflow, grates
 of porous cells, a flow that gets out of hand, and turbulence. Columns of cells along y; expected is what one can write
 down."""
+import shutil
 import unittest
 
 import numpy as np
 
 from openfoam_case import require_environment, rotating_mesh
-from slurry_case import AIR, SlurryTest
+from slurry_case import AIR, SLURRY, SlurryTest
 
 WIDTH, HEIGHT, ROWS = 0.02, 0.1, 20
 AREA = WIDTH * WIDTH
@@ -23,6 +24,49 @@ class ColumnTest(SlurryTest):
         for side in ("left", "right", "back", "front"):
             case.at_patch(side, U=SLIP)
         return case
+
+
+class Outlet(ColumnTest):
+    """A column at rest with a bed at its floor, under an outlet with a pressure: the fluid's balance of momentum needs
+    the pressure there."""
+
+    half, end, depth, solidity = 0.01, 0.02, 0.05, 0.5
+
+    def at_rest(self, level, pressure):
+        case = self.column(level=level, across=1, end_time=self.end, delta_t=0.001)
+        case.control(self.end, 0.001, write_interval=10)
+        case.open_top()
+        top = case.path / "0" / "p_rgh"
+        top.write_text(top.read_text().replace("p uniform 0;", f"p uniform {pressure};"))
+        case.bed(f"block {{ box (-1 0 -1) (1 {self.depth} 1); solidity {self.solidity}; velocity (0 0 0); "
+                 "diameter 0.005; }", drag="law Ergun;")
+        control = case.path / "system" / "controlDict"
+        control.write_text(control.read_text()
+                           + 'functions { balance { type slurryBalance; libs ("libmillFoam.so"); speed 0; } }')
+        return case
+
+    def assert_carries_the_balls(self, case, start="0"):
+        self.assert_runs(case, "slurryFoam")
+        lines = (case.path / "postProcessing" / "balance" / start / "slurryBalance.dat").read_text().splitlines()
+        names = [line for line in lines if line.startswith("#")][-1][1:].split()
+        found = dict(zip(names, np.array(lines[-1].split(), float)))
+        buoyancy = SLURRY * 9.81 * self.solidity * self.depth * AREA
+        for force in ("balls", "balance"):
+            self.assertAlmostEqual(found[f"force_{force}_y_N"] / buoyancy, 1, delta=1e-4, msg=force)
+
+    def test_a_pressure_that_is_not_0(self):
+        self.assert_carries_the_balls(self.at_rest(0.085, 1e5))
+
+    def test_a_flow_that_resumes(self):
+        # Also of a column that is full up to the outlet
+        for level in (0.085, HEIGHT):
+            with self.subTest(level=level):
+                case = self.at_rest(level, 0)
+                self.assert_carries_the_balls(case)
+                shutil.rmtree(case.folder(self.end))
+                control = case.path / "system" / "controlDict"
+                control.write_text(control.read_text().replace("startTime 0;", f"startTime {self.half};"))
+                self.assert_carries_the_balls(case, f"{self.half}")
 
 
 class Piston(ColumnTest):

@@ -372,7 +372,16 @@ Foam::tmp<Foam::surfaceScalarField> Foam::sharpPressure::skewSlope() const
 
 Foam::tmp<Foam::volScalarField> Foam::sharpPressure::staticPressure() const
 {
-    return p_rgh_ + density_ * (g_ & mesh_.C());
+    tmp<volScalarField> tp(p_rgh_ + density_ * (g_ & mesh_.C()));
+    // Across a patch that gives a pressure the density changes, too
+    for (fvPatchScalarField& patch : tp.ref().boundaryFieldRef())
+    {
+        if (!patch.coupled())
+        {
+            patch += jump_.boundaryField()[patch.patch().index()];
+        }
+    }
+    return tp;
 }
 
 

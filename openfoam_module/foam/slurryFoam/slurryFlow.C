@@ -4,6 +4,7 @@
 \*---------------------------------------------------------------------------*/
 
 #include "slurryFlow.H"
+#include "calculatedFvPatchFields.H"
 #include "coupledPatches.H"
 #include "fvcFlux.H"
 #include "fvcSurfaceIntegrate.H"
@@ -157,7 +158,9 @@ Foam::slurryFlow::slurryFlow(
   swept_(voidage_, bed_.inSpace() && !isA<staticFvMesh>(mesh)),
   contraction_(bed_, voidage_, U_),
   p_rgh_(fieldIO("p_rgh", mesh, IOobject::MUST_READ), mesh),
-  p_(fieldIO("p", mesh, IOobject::NO_READ), evaluateCoupled(p_rgh_)),
+  // The conditions of p_rgh would keep its values at patches
+  p_(fieldIO("p", mesh, IOobject::NO_READ), evaluateCoupled(p_rgh_),
+     wordList(mesh.boundary().size(), calculatedFvPatchScalarField::typeName)),
   surface_(alpha_, g_.value()),
   pressure_(
       surface_, p_rgh_, g_, mixture_.rho1(), mixture_.rho2(),
