@@ -3,7 +3,8 @@
     SPDX-License-Identifier: GPL-3.0-or-later
 
 Description
-    Walls at rest on a box that turns: each face lets as much pass as it sweeps.
+    Walls at rest on a box that turns: each face lets as much pass as it sweeps,
+    and an inlet lets its rate more pass.
 
 \*---------------------------------------------------------------------------*/
 
@@ -12,15 +13,14 @@ Description
 #include "fvcMeshPhi.H"
 #include "restingWallVelocityFvPatchVectorField.H"
 #include "smallCase.H"
+#include "superficialInletVelocityFvPatchVectorField.H"
 #include "surfaceFields.H"
 
 using namespace Foam;
 
-TEST(restingWallVelocity, followsTheFaceAcrossAndRestsAlongIt)
+//- Turn a box about z in a time-step
+static void turn(smallCase& box)
 {
-    smallCase box;
-    volVectorField U(box.field<vector>(
-        "U", dimVelocity, vector::zero, "restingWallVelocity"));
     ++box.time();
     pointField points(box.mesh().points());
     const scalar angle = 0.02;
@@ -31,6 +31,14 @@ TEST(restingWallVelocity, followsTheFaceAcrossAndRestsAlongIt)
             p.x() * Foam::sin(angle) + p.y() * Foam::cos(angle), p.z());
     }
     box.mesh().movePoints(points);
+}
+
+TEST(restingWallVelocity, followsTheFaceAcrossAndRestsAlongIt)
+{
+    smallCase box;
+    volVectorField U(box.field<vector>(
+        "U", dimVelocity, vector::zero, "restingWallVelocity"));
+    turn(box);
     U.correctBoundaryConditions();
 
     const surfaceScalarField swept(fvc::meshPhi(U));
@@ -54,6 +62,28 @@ TEST(restingWallVelocity, followsTheFaceAcrossAndRestsAlongIt)
     }
     // Its sides are not round, so that they do sweep
     EXPECT_GT(largest, 1e-4);
+}
+
+TEST(superficialInletVelocity, keepsItsRateWhereThePatchMoves)
+{
+    smallCase box;
+    const scalar rate = 0.03;
+    volVectorField U(
+        IOobject("U", box.time().timeName(), box.mesh()), box.mesh(),
+        entriesOf("dimensions [0 1 -1 0 0 0 0]; internalField uniform (0 0 0);"
+                  "boundaryField { \".*\" { type noSlip; } bottom { type"
+                  " superficialInletVelocity; volumetricFlowRate 0.03; } }"));
+    turn(box);
+    U.correctBoundaryConditions();
+    const label bottom = box.mesh().boundaryMesh().findPatchID("bottom");
+    const surfaceScalarField phi(fvc::meshPhi(U));
+    const scalarField& swept = phi.boundaryField()[bottom];
+    const scalarField passing(
+        (U.boundaryField()[bottom] & box.mesh().boundary()[bottom].Sf()) -
+        swept);
+    EXPECT_GT(mag(sum(swept)), 0.1 * rate);
+    EXPECT_NEAR(sum(passing), -rate, 1e-14);
+    EXPECT_NEAR(max(passing), min(passing), 1e-14);
 }
 
 TEST(restingWallVelocity, isAtRestWhereTheMeshIs)

@@ -118,7 +118,15 @@ void Foam::superficialInletVelocityFvPatchVectorField::updateCoeffs()
             << ", that of slurryFoam, or one of "
             << db().names<volScalarField>() << exit(FatalError);
     }
-    operator==(-patch().nf() * superficial / voidage);
+    scalarField outwards(-superficial / voidage);
+    if (internalField().mesh().moving())
+    {
+        const auto& U = static_cast<const volVectorField&>(internalField());
+        outwards +=
+            patch().patchField<surfaceScalarField, scalar>(fvc::meshPhi(U)) /
+            patch().magSf();
+    }
+    operator==(patch().nf() * outwards);
     fixedValueFvPatchVectorField::updateCoeffs();
 }
 
