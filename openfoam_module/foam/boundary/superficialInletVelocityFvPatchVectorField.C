@@ -5,6 +5,9 @@
 
 #include "superficialInletVelocityFvPatchVectorField.H"
 #include "addToRunTimeSelectionTable.H"
+#include "Constant.H"
+#include "fvcMeshPhi.H"
+#include "surfaceFields.H"
 #include "volFields.H"
 
 // * * * * * * * * * * * * * * * * Local Data  * * * * * * * * * * * * * * * //
@@ -83,6 +86,12 @@ Foam::superficialInletVelocityFvPatchVectorField::
 
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+bool Foam::superficialInletVelocityFvPatchVectorField::constantRate() const
+{
+    return isA<Function1Types::Constant<scalar>>(rate_());
+}
+
 
 void Foam::superficialInletVelocityFvPatchVectorField::updateCoeffs()
 {

@@ -26,7 +26,7 @@ void Foam::flowPressure::makeRoom(
                     : free.boundaryField()[patchi]);
         }
     }
-    misfit_ = total * mesh_.time().deltaTValue();
+    withoutRoom_ = -total * mesh_.time().deltaTValue();
     room.field() -= total / gSum(mesh_.V());
 }
 
@@ -65,7 +65,7 @@ Foam::flowPressure::flowPressure(
   mesh_(p_rgh.mesh()),
   clock_(clock),
   fresh_(fresh),
-  misfit_(0),
+  withoutRoom_(0),
   iterations_(0),
   residual_(0)
 {

@@ -125,9 +125,11 @@ void Foam::slurryFlow::keepState()
 {
     voidageChange_ = gMax(mag(
         voidage_.primitiveField() / voidage_.oldTime().primitiveField() - 1)());
-    misfit_ += solution_.misfit();
+    withoutRoom_ += solution_.withoutRoom();
+    closed_.add(phi_, voidage_);
     state_.set("voidageChange", voidageChange_);
-    state_.set("misfit", misfit_);
+    state_.set("withoutRoom", withoutRoom_);
+    state_.set("surplus", closed_.surplus());
 }
 
 
@@ -193,7 +195,8 @@ Foam::slurryFlow::slurryFlow(
   state_(IOobject(
       "slurryFlow", mesh.time().timeName(), "uniform", mesh,
       IOobject::READ_IF_PRESENT, IOobject::AUTO_WRITE)),
-  misfit_(state_.lookupOrDefault<scalar>("misfit", 0)),
+  withoutRoom_(state_.lookupOrDefault<scalar>("withoutRoom", 0)),
+  closed_(p_rgh_, U_, voidage_, state_.lookupOrDefault<scalar>("surplus", 0)),
   voidageChange_(state_.lookupOrDefault<scalar>("voidageChange", 0)),
   told_(bed_.feelsFlow() ? new toldForces(mesh) : nullptr)
 {
@@ -260,7 +263,7 @@ millfoam::record::StepRow Foam::slurryFlow::report()
     row.fluid = gSum(fluid);
     row.alpha_min = gMin(alpha_.primitiveField());
     row.alpha_above = gMax(alpha_.primitiveField()) - 1;
-    row.without_room = misfit_;
+    row.without_room = withoutRoom_;
     Info << "Slurry " << row.slurry << " m3, fluid " << row.fluid
          << " m3, alpha from " << row.alpha_min << " to " << 1 << " + "
          << row.alpha_above << ", fluid without room " << row.without_room
