@@ -286,6 +286,56 @@ class Controls(RefusedTest):
         self.assert_says(case, "patch left is a cyclicAMI", "expected cyclic patches")
 
 
+class Patches(RefusedTest):
+    """What enters through patches"""
+
+    FED = "type fixedValue; value uniform 1;"
+
+    def fed(self, velocity, share=FED, top="", **options):
+        case = self.small(**options)
+        case.at_patch("bottom", U=velocity, alpha=share)
+        if top == "open":
+            case.open_top()
+        return case
+
+    def test_a_feed_into_a_mill_that_is_closed(self):
+        for velocity in ("type fixedValue; value uniform (0 0.05 0);",
+                         "type superficialInletVelocity; volumetricFlowRate constant 2e-5;"):
+            with self.subTest(velocity=velocity):
+                result = self.assert_says(self.fed(velocity), "0/U", "(bottom) 2e-05 m3/s more",
+                                          "no patch gives a pressure", "prghPressure")
+                self.assertNotIn("Time = ", result.log)
+                self.assert_runs(self.fed(velocity, top="open"), "slurryFoam")
+
+    def test_one_that_begins_later_stops_the_run(self):
+        case = self.fed("type superficialInletVelocity; volumetricFlowRate table ((0 0) (0.01 0) (0.0101 2e-5));",
+                        end_time=0.1)
+        # A thousandth of 1.6e-5 m3 has come in after 0.8 ms
+        result = self.assert_says(case, "time 0.012:", "4e-08 m3 of fluid", "0.25 %", "prghPressure")
+        self.assertIn("Time = 0.01\n", result.log)
+
+    def test_what_leaves_as_fast_as_it_enters_is_accepted(self):
+        case = self.fed("type fixedValue; value uniform (0 0.05 0);")
+        case.at_patch("top", U="type fixedValue; value uniform (0 0.05 0);")
+        self.assert_runs(case, "slurryFoam")
+
+    def test_an_inlet_whose_share_of_slurry_is_none(self):
+        velocity = "type fixedValue; value uniform (0 0.05 0);"
+        for share in ("type fixedValue; value uniform 2;", "type fixedValue; value uniform -0.1;",
+                      "type inletOutlet; inletValue uniform 2; value uniform 0;"):
+            with self.subTest(share=share):
+                result = self.assert_says(self.fed(velocity, share, top="open"), "0/alpha.slurry",
+                                          "at the patch bottom", "is 2" if "2" in share else "is -0.1",
+                                          "expected 0 to 1")
+                self.assertNotIn("Time = ", result.log)
+
+    def test_an_inlet_whose_share_becomes_none(self):
+        share = "type uniformFixedValue; uniformValue table ((0 1) (0.003 1) (0.004 2));"
+        case = self.fed("type fixedValue; value uniform (0 0.05 0);", share, top="open", end_time=0.02)
+        result = self.assert_says(case, "alpha.slurry at the patch bottom", "is 2 at", "expected 0 to 1")
+        self.assertIn("Time = 0.004\n", result.log)
+
+
 class MeshSpeed(RefusedTest):
     """The speed of the mesh, in constant/dynamicMeshDict, and of the mill, in constant/millProperties"""
 

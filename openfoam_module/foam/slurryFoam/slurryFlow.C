@@ -10,6 +10,7 @@
 #include "fvcSurfaceIntegrate.H"
 #include "mathematicalConstants.H"
 #include "mixtureFluids.H"
+#include "slurryShare.H"
 #include "staticFvMesh.H"
 #include "optionalDictionary.H"
 #include "zeroFields.H"
@@ -32,28 +33,6 @@ static dimensionedScalar surfaceTension(const dictionary& dict)
     }
     return sigma;
 }
-
-//- How far shares of slurry at the start may lie beyond 0 and 1: ten times as
-//  far as those of any recorded flow, 1e-4
-static constexpr scalar beyond_ = 1e-3;
-
-
-//- The share of slurry at the start, checked to be one, with its coupled patches
-static volScalarField& checkedShare(volScalarField& alpha)
-{
-    forAll(alpha, celli)
-    {
-        if (!(alpha[celli] >= -beyond_ && alpha[celli] <= 1 + beyond_))
-        {
-            FatalErrorInFunction << alpha.objectPath() << ": " << alpha.name()
-                                 << " is " << alpha[celli] << " in cell "
-                                 << celli << " at " << alpha.mesh().C()[celli]
-                                 << " m; expected 0 to 1" << exit(FatalError);
-        }
-    }
-    return evaluateCoupled(alpha);
-}
-
 
 //- Cells are judged by their volume up to this ratio of it to the cube of their
 //  shortest distance. Beyond, half of what is stable by the volume would be more

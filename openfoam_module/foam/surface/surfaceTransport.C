@@ -4,6 +4,7 @@
 \*---------------------------------------------------------------------------*/
 
 #include "surfaceTransport.H"
+#include "slurryShare.H"
 #include "syncTools.H"
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
@@ -43,6 +44,7 @@ void Foam::surfaceTransport::patchShares(
     const scalarField& flow = phi.boundaryField()[patchi];
     const scalarField& outside = alpha_.boundaryField()[patchi];
     const label start = patch.start() - mesh_.nInternalFaces();
+    checkInflow(alpha_.boundaryField()[patchi], flow);
     forAll(flow, i)
     {
         const label celli = patch.faceCells()[i];
