@@ -201,6 +201,7 @@ const Law& find_law(std::string_view name) {
 }
 
 double reynolds(double phi, double slip, double diameter, const Fluid& fluid) {
+  if (!(slip > 0 && fluid.viscosity > 0)) return 0;
   return fluid.density * (1 - phi) * slip * diameter / fluid.viscosity;
 }
 

@@ -115,7 +115,8 @@ struct Fluid {
   double viscosity;  ///< Pa s; for a slurry that is not Newtonian see FlowCurve
 };
 
-/// Reynolds number rho e v d / mu for slip v >= 0 (m/s) and diameter d (m).
+/// Reynolds number rho e v d / mu for slip v >= 0 (m/s) and diameter d (m). At rest it is 0, also in a fluid
+/// without viscosity: a slurry that thickens with the shear rate has none there, and its drag goes to 0.
 double reynolds(double phi, double slip, double diameter, const Fluid& fluid);
 
 /// Exchange coefficient beta (kg/(m^3 s)) from F; 0 where there are no solids.

@@ -101,6 +101,17 @@ TEST(DragLaws, ViscousValuesAtHalfSolidity) {
   EXPECT_NEAR(drag::kozeny_carman(0.5, 0), 40, 1e-12);
 }
 
+TEST(DragLaws, DragOfAFluidWithoutViscosityIsZeroAtRest) {
+  // What thickens with the shear rate has no viscosity at rest; OpenFOAM stops at 0/0
+  const drag::Fluid thickening{1239, 0};
+  std::feclearexcept(FE_ALL_EXCEPT);
+  EXPECT_EQ(drag::reynolds(0.5, 0, 5e-3, thickening), 0);
+  for (const drag::Law& law : drag::laws())
+    EXPECT_EQ(drag::exchange_coefficient(law, 0.5, 0, 5e-3, thickening), 0) << law.name;
+  EXPECT_EQ(std::fetestexcept(FE_DIVBYZERO | FE_INVALID), 0);
+  EXPECT_DOUBLE_EQ(drag::reynolds(0.5, 0.2, 5e-3, water), 500);
+}
+
 TEST(DragLaws, TangIsNegativeFarBeyondItsRange) {
   for (const auto& [phi, from] :
        {std::pair{0.6, 34900.0}, std::pair{0.65, 10600.0}, std::pair{0.7, 5470.0}}) {

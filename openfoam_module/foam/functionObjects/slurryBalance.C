@@ -10,6 +10,7 @@
 #include "fluidOnBalls.H"
 #include "mixtureFluids.H"
 #include "weightedSpread.H"
+#include "openfoam_module/drag/drag_laws.hpp"
 #include "openfoam_module/drag/pore_shear_rate.hpp"
 #include "openfoam_module/record/rotation.hpp"
 
@@ -121,8 +122,8 @@ void Foam::functionObjects::slurryBalance::writeSlip()
         const scalar d = (*diameter)[celli];
         const scalar rate =
             d > 0 ? millfoam::drag::pore_shear_rate(phi, slip[celli], d) : 0;
-        reynolds[celli] = fluids.slurryDensity * (1 - phi) * slip[celli] * d /
-                          viscosity.at(rate);
+        reynolds[celli] = millfoam::drag::reynolds(
+            phi, slip[celli], d, {fluids.slurryDensity, viscosity.at(rate)});
     }
     const scalarField weights(
         solidity * mesh_.V() * pos(fields_.alpha().primitiveField() - 0.5));
