@@ -238,6 +238,19 @@ class Controls(RefusedTest):
         self.assert_object_refused("type voxelAverages; lower (0 0 0); upper (0.04 0.04 0.01); shape (4 4 1); interval"
                                    ' 0.001; window 0.002; file "missing/x.h5";', "no folder", "missing")
 
+    def test_averages_of_two_objects_in_one_file(self):
+        case = self.small()
+        control = case.path / "system/controlDict"
+        box = "lower (0 0 0); upper (0.04 0.04 0.01); window 0.002;"
+        averages = f'{{ type voxelAverages; libs ("libmillFoam.so"); {box} shape'
+        control.write_text(control.read_text() + f"functions {{ fine {averages} (4 4 1); }}"
+                                                 f" coarse {averages} (1 1 1); }} }}")
+        result = self.assert_says(case, "controlDict", "slurry.h5", "fine and coarse")
+        self.assertNotIn("Time = ", result.log)
+        control.write_text(control.read_text().replace("(1 1 1);", '(1 1 1); file "coarse.h5";'))
+        self.assert_runs(case, "slurryFoam")
+        self.assertTrue((case.path / "slurry.h5").is_file() and (case.path / "coarse.h5").is_file())
+
     def test_windows_that_are_hardly_longer_than_an_instant(self):
         self.assert_object_refused("type voxelAverages; lower (0 0 0); upper (0.04 0.04 0.01); shape (4 4 1); interval"
                                    " 0.001; window 1e-12;", "window is 1e-12", "at least 1e-06 s")

@@ -86,6 +86,7 @@ static fileName fileOf(const dictionary& dict, const Time& time)
     {
         file = time.globalPath() / file;
     }
+    file.clean();
     if (Pstream::master() && !isDir(file.path()))
     {
         FatalIOErrorInFunction(dict)
@@ -94,6 +95,31 @@ static fileName fileOf(const dictionary& dict, const Time& time)
             << exit(FatalIOError);
     }
     return file;
+}
+
+
+//- Refuse a file into which another function object of the case writes, too
+static void refuseShared(
+    const word& name, const fileName& file, const dictionary& dict,
+    const Time& time)
+{
+    const dictionary all(time.controlDict().subOrEmptyDict("functions"));
+    for (const entry& one : all)
+    {
+        if (one.isDict() && one.keyword() != name &&
+            one.dict().lookupOrDefault<word>("type", "none") ==
+                "voxelAverages" &&
+            one.dict().lookupOrDefault("enabled", true) &&
+            fileOf(one.dict(), time) == file)
+        {
+            FatalIOErrorInFunction(dict)
+                << "file is " << file << " for both function objects " << name
+                << " and " << one.keyword() << ", of which the second would"
+                << " replace what the first has written; expected an entry"
+                << " file of its own for each, as file \"" << one.keyword()
+                << ".h5\";" << exit(FatalIOError);
+        }
+    }
 }
 
 
@@ -265,6 +291,7 @@ Foam::averageSegments::averageSegments(
   covered_(time.value())
 {
     sums_.begin = covered_;
+    refuseShared(name, file_, dict, time);
     if (Pstream::master())
     {
         // Before the flow, not after it
