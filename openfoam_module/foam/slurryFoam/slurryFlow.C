@@ -6,6 +6,7 @@
 #include "slurryFlow.H"
 #include "calculatedFvPatchFields.H"
 #include "coupledPatches.H"
+#include "flowState.H"
 #include "fvcFlux.H"
 #include "fvcSurfaceIntegrate.H"
 #include "mathematicalConstants.H"
@@ -179,6 +180,9 @@ Foam::slurryFlow::slurryFlow(
   voidageChange_(state_.lookupOrDefault<scalar>("voidageChange", 0)),
   told_(bed_.feelsFlow() ? new toldForces(mesh) : nullptr)
 {
+    requireState(
+        {"phi", "forceAcceleration", "fluxDetail", "massMoved", "slurryFlow"},
+        mesh);
     contractionFlux_.setOriented();
     fluxDetail_.setOriented();
     massMoved_.setOriented();

@@ -5,6 +5,7 @@
 
 #include "sweptFluid.H"
 #include "coupledPatches.H"
+#include "flowState.H"
 #include "fvcDiv.H"
 #include "gaussLaplacianScheme.H"
 #include "surfaceInterpolate.H"
@@ -43,6 +44,10 @@ Foam::sweptFluid::sweptFluid(const volScalarField& voidage, const bool kept)
       mesh_, dimensionedScalar(dimArea / dimTime, Zero),
       zeroGradientFvPatchScalarField::typeName)
 {
+    if (kept)
+    {
+        requireState({potential_.name()}, mesh_);
+    }
     evaluateCoupled(potential_);
     mesh_.setFluxRequired(potential_.name());
     flux_.setOriented();

@@ -5,6 +5,7 @@
 
 #include "turningDerivative.H"
 #include "coupledPatches.H"
+#include "flowState.H"
 #include "meshRotation.H"
 
 #include <cmath>
