@@ -209,6 +209,47 @@ class Controls(RefusedTest):
         shutil.copytree(case.path / "0", case.path / "0.002")
         self.assert_runs(case, "slurryFoam")
 
+    def test_one_rank_in_a_case_of_collated_files(self):
+        case = self.small()
+        shutil.copytree(case.path / "0", case.path / "processors2/0.002")
+        result = self.assert_says(case, "on several ranks has reached 0.002 s", "-parallel")
+        self.assertNotIn("Time = ", result.log)
+
+    def test_several_ranks_in_a_case_that_one_has_computed(self):
+        case = self.small()
+        case.decompose_into(2, 1, 1)
+        self.assert_runs(case, "decomposePar")
+        shutil.copytree(case.path / "0", case.path / "0.002")
+        self.assert_refused(case, "on one rank has reached 0.002 s", program="slurryFoam", ranks=2)
+        self.assertEqual(list(case.path.glob("postProcessing/flow/[0-9]*")), [])
+
+    def written(self):
+        """A case that has reached 0.002 s of 0.004 s."""
+        case = self.small()
+        case.control(0.002, 0.001, 2)
+        self.assert_runs(case, "slurryFoam")
+        case.control(0.004, 0.001, 2, start_time=0.002)
+        return case
+
+    def test_a_time_that_was_not_written_to_its_end(self):
+        case = self.written()
+        for name in ("phi", "forceAcceleration", "fluxDetail", "massMoved", "uniform/slurryFlow"):
+            with self.subTest(name=name):
+                half = self.copy_of(case)
+                (half.path / "0.002" / name).unlink()
+                result = self.assert_says(half, f"0.002/{name}", "no such file", "resumes at 0.002 s")
+                self.assertNotIn("Time = ", result.log)
+        self.assert_runs(case, "slurryFoam")
+
+    def test_fields_alone_are_accepted(self):
+        case = self.written()
+        for path in (case.path / "0.002").iterdir():
+            if path.name == "uniform":
+                shutil.rmtree(path)
+            elif path.name not in ("U", "p_rgh", "alpha.slurry"):
+                path.unlink()
+        self.assert_runs(case, "slurryFoam")
+
     def assert_object_refused(self, entries, *words, name="balance"):
         case = self.small()
         control = case.path / "system/controlDict"
@@ -637,8 +678,9 @@ class Start(RefusedTest):
                 self.assertEqual((case.path / name / "alpha.slurry").read_text(), text)
 
     def test_so_does_one_that_has_begun_on_several_ranks(self):
-        case = self.begun("processor0/0", "processor0/0.002")
-        self.assert_says(case, "a flow has begun", "0.002", program="slurryStart")
+        for folder in ("processor0", "processors2"):
+            case = self.begun(f"{folder}/0", f"{folder}/0.002")
+            self.assert_says(case, "a flow has begun", "0.002", program="slurryStart")
 
     def test_the_first_time_alone_is_set(self):
         case = self.begun("processor0/0")

@@ -4,6 +4,7 @@
 \*---------------------------------------------------------------------------*/
 
 #include "flowTimes.H"
+#include "caseTimes.H"
 #include "HashSet.H"
 #include "fileOperation.H"
 #include "IFstream.H"
@@ -22,35 +23,49 @@ namespace Foam
 namespace
 {
 
-//- The latest time in a folder; none where it has no times
-std::optional<scalar> latestTime(const Time& time, const fileName& folder)
+//- The latest time in folders; none where they have no times
+std::optional<scalar> latestTime(const fileNameList& folders)
 {
-    if (!isDir(folder))
+    std::optional<scalar> result;
+    for (const fileName& folder : folders)
     {
-        return std::nullopt;
+        const instantList found(timesIn(folder));
+        if (!found.empty())
+        {
+            result = max(result.value_or(-GREAT), found.last().value());
+        }
     }
-    const instantList found(Time::findTimes(folder, time.constant()));
-    return found.empty() || found.last().name() == time.constant()
-               ? std::nullopt
-               : std::optional<scalar>(found.last().value());
+    return result;
 }
 
 
-//- Refuse to begin on one rank a flow that several have computed
-void refuseResultsOfRanks(const Time& time)
+//- Refuse to begin or resume where the results of the other kind, of several
+//  ranks or of the case itself, are later: they would be replaced
+void refuseLaterResults(const Time& time)
 {
-    const std::optional<scalar> ranks =
-        latestTime(time, time.path() / "processor0");
-    const std::optional<scalar> whole = latestTime(time, time.path());
+    const fileName folder(time.globalPath());
+    const std::optional<scalar> ranks = latestTime(rankFolders(folder));
+    const std::optional<scalar> whole = latestTime({folder});
     if (!Pstream::parRun() && ranks && *ranks > whole.value_or(-GREAT))
     {
         FatalErrorInFunction
-            << time.path() << ": a flow on several ranks has reached " << *ranks
+            << folder << ": a flow on several ranks has reached " << *ranks
             << " s in processor*, and the case itself has no time later than "
             << whole.value_or(0) << " s: the results would be replaced."
             << " Expected 'slurryFoam -parallel', which resumes the flow, or"
             << " 'reconstructPar -latestTime' before a flow on one rank. Remove"
             << " processor* or run Allclean to begin again" << exit(FatalError);
+    }
+    if (Pstream::parRun() && whole && *whole > ranks.value_or(-GREAT))
+    {
+        FatalErrorInFunction
+            << folder << ": a flow on one rank has reached " << *whole
+            << " s in the case itself, and processor* have no time later than "
+            << ranks.value_or(0) << " s: the results would be replaced."
+            << " Expected 'slurryFoam' on one rank, which resumes the flow, or"
+            << " 'decomposePar -latestTime -force' before a flow on several"
+            << " ranks. Remove the later times of the case to resume that of"
+            << " processor*" << exit(FatalError);
     }
 }
 
@@ -109,7 +124,10 @@ void Foam::checkIntervals(const fileName& folder)
 
 void Foam::checkFlowTimes(const Time& time)
 {
-    refuseResultsOfRanks(time);
+    if (Pstream::master())
+    {
+        refuseLaterResults(time);
+    }
     refuseEarlierEnd(time);
 }
 

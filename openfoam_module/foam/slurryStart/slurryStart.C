@@ -33,6 +33,7 @@ Usage
 
 #include "argList.H"
 #include "caseKeeper.H"
+#include "caseTimes.H"
 #include "Enum.H"
 #include "fvMesh.H"
 #include "heightCut.H"
@@ -117,30 +118,18 @@ Pair<scalar> levels(
 }
 
 
-//- Times after the first, of a case or of its first part where it is decomposed
+//- Times after the first, of a case and of its ranks where it is decomposed
 wordList laterTimes(const Time& time)
 {
-    const fileName part(time.path() / "processor0");
+    fileNameList folders(rankFolders(time.path()));
+    folders.append(time.path());
     wordList names;
-    for (const fileName& folder : {fileName(time.path()), part})
+    for (const fileName& folder : folders)
     {
-        const instantList found(
-            isDir(folder) ? Time::findTimes(folder, time.constant())
-                          : instantList());
-        scalar first = GREAT;
-        for (const instant& one : found)
+        const instantList found(timesIn(folder));
+        for (label i = 1; i < found.size(); ++i)
         {
-            if (one.name() != time.constant())
-            {
-                first = min(first, one.value());
-            }
-        }
-        for (const instant& one : found)
-        {
-            if (one.name() != time.constant() && one.value() > first)
-            {
-                names.append(one.name());
-            }
+            names.append(found[i].name());
         }
     }
     return names;

@@ -71,7 +71,8 @@ def align(case: Path) -> float:
     for path, at in restarts.items():
         if at > common + interval:
             path.unlink()
-    for folder in folders:
+    # Those that were put together, too: slurryFoam would not replace later ones of the case
+    for folder in {*folders, case}:
         for name, value in flow_times(folder).items():
             if value > common + interval:
                 shutil.rmtree(folder / name)
