@@ -156,6 +156,15 @@ class Summary(SlurryTest):
             self.assertIsNone(record[key], key)
         self.assertIsNone(record["beyond_law"]["mean"])
 
+    def test_of_a_flow_that_is_stopped_early(self):
+        case, run = self.summary()
+        case.control(0.01, 0.002, write_interval=2)
+        control = case.path / "system" / "controlDict"
+        control.write_text(control.read_text().replace("stopAt endTime", "stopAt nextWrite"))
+        record = run()
+        self.assertFalse(record["complete"])
+        self.assertEqual([record[key] for key in ("end_s", "asked_end_s", "steps")], [0.004, 0.01, 2])
+
     def test_says_in_which_sense_the_mesh_turns(self):
         for omega, sense in ((-3, "clockwise"), (3, "anticlockwise")):
             case, run = self.summary(motion=rotating_mesh(omega))

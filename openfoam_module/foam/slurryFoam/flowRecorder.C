@@ -4,6 +4,7 @@
 \*---------------------------------------------------------------------------*/
 
 #include "flowRecorder.H"
+#include "flowTimes.H"
 #include "foamVersion.H"
 #include "IOdictionary.H"
 #include "meshRotation.H"
@@ -30,9 +31,9 @@ static void complete(millfoam::record::FlowSetup& setup, const Time& time)
     setup.openfoam_build = foamVersion::build;
     setup.ranks = Pstream::nProcs();
     setup.begin = time.value();
-    if (time.endTime().value() < GREAT)
+    if (const std::optional<scalar> end = askedEnd(time))
     {
-        setup.asked_end = time.endTime().value();
+        setup.asked_end = *end;
     }
     setup.angular_velocity = meshRotation(time);
     setup.limits = timeStep::limits(time.controlDict());
@@ -137,7 +138,7 @@ void Foam::flowRecorder::end()
         [&]
         {
             record_->set_memory(memory);
-            record_->write(true);
+            record_->write(hasReachedAskedEnd(time_));
         });
 }
 

@@ -138,6 +138,22 @@ bool Foam::hasEnded(const Time& time)
 }
 
 
+std::optional<Foam::scalar> Foam::askedEnd(const Time& time)
+{
+    scalar end = 0;
+    return time.controlDict().readIfPresent("endTime", end)
+               ? std::optional<scalar>(end)
+               : std::nullopt;
+}
+
+
+bool Foam::hasReachedAskedEnd(const Time& time)
+{
+    const std::optional<scalar> end = askedEnd(time);
+    return end && !(time.value() < *end - 0.5 * time.deltaTValue());
+}
+
+
 void Foam::checkMeshFiles(const Time& time)
 {
     for (const word name :
