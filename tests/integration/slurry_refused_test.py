@@ -93,6 +93,26 @@ class Bed(RefusedTest):
         path.write_text(re.sub(r"FoamFile\s*\{[^}]*\}", "", path.read_text()))
         self.assert_says(case, "bedProperties", "has no header 'FoamFile")
 
+    def test_a_second_drag_of_the_same_balls(self):
+        case = self.small()
+        case.bed(self.block())
+        case.drag(f"law Ergun; {self.block()}")
+        self.assert_says(case, "bedProperties", "particleDrag bed", "again")
+
+    def test_a_slurry_that_thickens_is_accepted_where_it_rests(self):
+        case = self.small()
+        case.control(0.004, 0.002, write_interval=2)
+        case.bed(f"block {{ {BLOCK.replace('(0.1 0 0)', '(0 0 0)')} }}", drag="law Ergun; viscosity pore;")
+        properties = case.path / "constant/transportProperties"
+        properties.write_text(re.sub(r"transportModel Bingham; (.*?) BinghamCoeffs \{.*?\}",
+                                     r"transportModel HerschelBulkley; \1 HerschelBulkleyCoeffs { tau0 0; k 1e-4; "
+                                     r"n 1.5; nu0 1; }", properties.read_text()))
+        control = case.path / "system/controlDict"
+        control.write_text(control.read_text()
+                           + 'functions { balance { type slurryBalance; libs ("libmillFoam.so"); speed 0; } }')
+        self.assert_runs(case, "slurryFoam")
+        self.assertLess(np.abs(case.field("U", 0.004)).max(), 1e-6)
+
     def test_an_entry_of_ones_own_is_accepted(self):
         case = self.small()
         case.bed(f"mySolidity 0.5; {self.block('solidity 0.5', 'solidity $mySolidity')}")

@@ -35,6 +35,19 @@ void Foam::slurryFlow::readBed()
                 << " expected simulationType laminar" << exit(FatalError);
         }
 
+        const fv::optionList& sources = fvOptions_;
+        for (const fv::option& source : sources)
+        {
+            if (source.type() == "particleDrag" && source.active())
+            {
+                FatalIOErrorInFunction(bedDict_)
+                    << "the balls drag the flow already, and constant/fvOptions"
+                    << " has particleDrag " << source.name() << ", which would"
+                    << " drag it again; expected one of them"
+                    << exit(FatalIOError);
+            }
+        }
+
         const dictionary& drag = bedDict_.subDict("drag");
         requireKnownEntries(drag, bedDrag::entries());
         drag_.reset(new bedDrag(drag, fluidsOf(mixture_)));
