@@ -3,6 +3,7 @@
 import argparse
 import math
 import os
+import re
 import shutil
 import subprocess
 from collections.abc import Callable, Iterable, Sequence
@@ -27,6 +28,15 @@ def copy_case(case: Path | str, *folders: Path) -> None:
 def write_parameters(case: Path | str, **values: Any) -> None:
     """Writes CASE/parameters, which the template's dictionaries include: one `key value;` on each line."""
     (Path(case) / "parameters").write_text("".join(f"{key} {value};\n" for key, value in values.items()))
+
+
+def stop_mill(case: Path | str) -> None:
+    """Sets omega of CASE/constant/millProperties to 0: slurryFoam refuses a mill that turns while its walls rest."""
+    properties = Path(case) / "constant" / "millProperties"
+    text, count = re.subn(r"^omega .*;$", "omega 0;", properties.read_text(), flags=re.MULTILINE)
+    if count != 1:
+        raise RunError(f"{properties}: {count} lines 'omega ...;', expected one")
+    properties.write_text(text)
 
 
 def run(case: Path | str, *command: Any) -> str:

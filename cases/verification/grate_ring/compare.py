@@ -10,7 +10,6 @@ f and the discharge coefficient C; behind them is air. Over the ring, whose chor
 and the hold-up V of a drum of length L falls by dV/dt = -Q(H(V)). C of the plate that a mill's grates are is
 1/(f sqrt(K + 1)): K by Idelchik, diagram 8-1, and 1 because the pool in front of them is at rest. Independent of K, the
 coefficient that the discharge has must be an orifice's. Exit code 1 if a run misses a limit."""
-import re
 import shutil
 import sys
 from dataclasses import dataclass
@@ -28,7 +27,7 @@ from millfoam.files.mill import read_mill
 from millfoam.files.tables import read_columns
 from millfoam.readings.models import orifice_coefficients, plate_loss
 from millfoam.run import run as run_program
-from millfoam.run import case_options, fresh_runs, marked, run_jobs, set_options, write_table
+from millfoam.run import case_options, fresh_runs, marked, run_jobs, set_options, stop_mill, write_table
 
 matplotlib.use("Agg")
 
@@ -163,11 +162,7 @@ def run(pool, case, here):
         [f"flow.start.level={pool.level}", f"geometry.grates.pegged={pool.pegged}",
          f"resolution.cell_size={pool.cell}"]))
     require_sizes(case)
-    properties = case / "constant" / "millProperties"
-    text, count = re.subn(r"^omega .*;$", "omega 0;", properties.read_text(), flags=re.MULTILINE)
-    if count != 1:
-        raise RuntimeError(f"{properties}: {count} lines 'omega ...;', expected one")
-    properties.write_text(text)
+    stop_mill(case)
     run_program(case, "slurryStart")
     run_program(case, "slurryFoam")
     table = read_columns(case, "slurryBalance")

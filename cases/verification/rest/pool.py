@@ -17,7 +17,7 @@ import pool_pictures
 import pool_table
 from millfoam.files.constants import GRAVITY
 from millfoam.run import run as run_program
-from millfoam.run import RunError, copy_case, run_jobs, set_options, write_parameters
+from millfoam.run import RunError, copy_case, run_jobs, set_options, stop_mill, write_parameters
 from mill_slice import FINE, MILL
 from pool_history import Run, measure, read_history, write_history
 
@@ -89,6 +89,8 @@ def build(run, case, here, end, gravity=GRAVITY):
         gravity=f"(0 {-gravity} 0)", skewCorrectors=1)
     if mill:
         run_program(case, "millMesh", here / mill, "--case", ".", *set_options(FINE if run.mesh == "slice" else ()))
+        if not run.turning:
+            stop_mill(case)
     else:
         copy_case(case, RESOURCES / run.mesh)
         run_program(case, "blockMesh")

@@ -18,7 +18,7 @@ from millfoam.files import foam
 from millfoam.files.constants import GRAVITY
 from millfoam.files.mill import Mill, read_mill
 from millfoam.files.tables import read_columns
-from millfoam.run import case_options, fresh_runs, limit_table, run, run_jobs, set_options, write_table
+from millfoam.run import case_options, fresh_runs, limit_table, run, run_jobs, set_options, stop_mill, write_table
 
 matplotlib.use("Agg")
 
@@ -133,6 +133,8 @@ def compute(item: tuple[str, Run]) -> Path:
     if not what.turns:
         (case / "constant" / "dynamicMeshDict").write_text(
             HEAD.format(kind="dictionary", name="dynamicMeshDict") + "dynamicFvMesh staticFvMesh;\n")
+    if what.walls == "pool":
+        stop_mill(case)
     if what.full:
         alpha = case / "0" / "alpha.slurry"
         alpha.write_text(alpha.read_text().replace("internalField   uniform 0;", "internalField   uniform 1;"))
