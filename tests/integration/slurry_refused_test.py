@@ -455,6 +455,51 @@ class MeshSpeed(RefusedTest):
             case.at_patch(patch, U="type rotatingWallVelocity; origin (0 0 0); axis (0 0 1); omega -6.4;")
         self.assert_runs(case, "slurryFoam")
 
+    WALLS = ("left", "right", "bottom", "top", "back", "front")
+
+    def with_walls(self, motion, some, velocity, others="type noSlip;"):
+        """Some of the walls have one condition of U, the others another."""
+        case = self.mill(motion)
+        for patch in self.WALLS:
+            case.at_patch(patch, U=velocity if patch in some else others)
+        return case
+
+    def test_walls_that_turn_another_way(self):
+        wall = "type rotatingWallVelocity; origin (0 0 0); axis {}; omega {};"
+        for axis, omega in (("(0 0 1)", 6.4), ("(0 0 -1)", -6.4), ("(0 0 1)", -6.3), ("(0 1 0)", -6.4)):
+            with self.subTest(axis=axis, omega=omega):
+                case = self.with_walls(self.STATIC, self.WALLS[:1], wall.format(axis, omega))
+                self.assert_speed_refused(case, "omega is -6.4 rad/s", "the wall left", "rotatingWallVelocity",
+                                          "'omega -6.4;'")
+        for axis, omega in (("(0 0 -2)", 6.4), ("(0 0 1)", 0)):
+            case = self.with_walls(rotating_mesh(-6.4), self.WALLS[:1], wall.format(axis, omega))
+            self.assert_runs(case, "slurryFoam")
+
+    def test_a_mill_that_turns_while_all_its_walls_rest(self):
+        for velocity in ("type noSlip;", "type fixedValue; value uniform (0 0 0);",
+                         "type rotatingWallVelocity; origin (0 0 0); axis (0 0 1); omega 0;"):
+            with self.subTest(velocity=velocity):
+                case = self.with_walls(self.STATIC, self.WALLS[:2], velocity)
+                self.assert_speed_refused(case, "omega is -6.4 rad/s", "neither the mesh turns nor any wall",
+                                          "left right", "omega 0 of a mill at rest")
+
+    def test_a_shell_that_rests_around_what_turns_is_accepted(self):
+        turning = "type rotatingWallVelocity; origin (0 0 0); axis (0 0 1); omega -6.4;"
+        self.assert_runs(self.with_walls(self.STATIC, self.WALLS[:1], turning), "slurryFoam")
+        # And on the impeller's mesh
+        moving = "type movingWallVelocity; value uniform (0 0 0);"
+        case = self.with_walls(rotating_mesh(-6.4), self.WALLS[:1], moving, "type restingWallVelocity;")
+        self.assert_runs(case, "slurryFoam")
+
+    def test_an_axis_beside_that_of_an_upright_mill(self):
+        for origin, accepted in (("(0.1 0 0)", False), ("(0 0 0.1)", True)):
+            case = self.small(motion=rotating_mesh(-6.4).replace("origin (0 0 0)", f"origin {origin}"))
+            case.write("constant/g", "dimensions [0 1 -2 0 0 0 0]; value (0 0 -9.81);")
+            if accepted:
+                self.assert_runs(case, "slurryFoam")
+            else:
+                self.assert_says(case, "dynamicMeshDict", "origin is (0.1 0 0) m", "the z axis")
+
     def test_a_speed_that_is_a_function_of_time_is_accepted(self):
         self.assert_runs(self.mill(rotating_mesh("table ((0 0) (1 -6.4))")), "slurryFoam")
 

@@ -25,6 +25,9 @@ struct rotation
 
     //- Angular speed about this axis, rad/s
     autoPtr<Function1<scalar>> omega;
+
+    //- A point of this axis, m
+    point origin;
 };
 
 
@@ -47,7 +50,7 @@ std::optional<rotation> rotationOf(const dictionary& dict)
     const vector axis(motion.get<vector>("axis"));
     return rotation{
         axis.z() / max(mag(axis), VSMALL),
-        Function1<scalar>::New("omega", motion)};
+        Function1<scalar>::New("omega", motion), motion.get<point>("origin")};
 }
 
 
@@ -76,6 +79,20 @@ std::optional<Foam::scalar> Foam::constantMeshRotation(const Time& time)
                ? std::optional<scalar>(
                      found->axis * found->omega->value(time.value()))
                : std::nullopt;
+}
+
+
+void Foam::requireAxisThroughOrigin(const Time& time)
+{
+    const IOdictionary dict(motionOf(time));
+    const std::optional<rotation> found(rotationOf(dict));
+    if (found && (mag(found->origin.x()) > 0 || mag(found->origin.y()) > 0))
+    {
+        FatalIOErrorInFunction(dict)
+            << "origin is " << found->origin << " m, but the mill turns about"
+            << " the z axis; expected (0 0 0) or another point of this axis,"
+            << " and a mesh around it" << exit(FatalIOError);
+    }
 }
 
 

@@ -37,6 +37,8 @@ Foam::turningDerivative::turningDerivative(
         mag(gravity.x()) + mag(gravity.y()) <= SMALL * mag(gravity.z());
     if (upright && meshRotation(U.time()) != 0)
     {
+        requireAxisThroughOrigin(U.time());
+        requireState({"stepAcceleration"}, U.mesh());
         U.oldTime(); // before turn() changes U
         last_.reset(new volVectorField(
             IOobject(
