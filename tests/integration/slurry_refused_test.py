@@ -323,6 +323,18 @@ class Controls(RefusedTest):
         result = self.assert_says(case, "fvSolution", "no entry for the tracer salt")
         self.assertNotIn("Time = ", result.log)
 
+    def test_a_tracer_without_the_iterations_of_its_limiter(self):
+        case = self.small()
+        solution = case.path / "system/fvSolution"
+        solution.write_text(solution.read_text().replace('"(U|k', '"(salt|U|k'))
+        schemes = case.path / "system/fvSchemes"
+        schemes.write_text(schemes.read_text().replace("default none;",
+                                                       "default none; div(alphaPhi,salt) Gauss upwind;"))
+        control = case.path / "system/controlDict"
+        control.write_text(control.read_text() + 'functions { salt { type slurryTracer; libs ("libmillFoam.so"); } }')
+        result = self.assert_says(case, "fvSolution", "the tracer salt has no nLimiterIter", "nLimiterIter 10;")
+        self.assertNotIn("Time = ", result.log)
+
     def test_a_misspelt_library_of_a_function_object(self):
         self.assert_object_refused('type scalarTransport; libs ("libsolverFunctionObject.so");',
                                    "type is scalarTransport", "libs")

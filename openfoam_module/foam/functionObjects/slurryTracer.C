@@ -59,7 +59,15 @@ void Foam::functionObjects::slurryTracer::check(const dictionary& dict) const
     {
         FatalIOErrorInFunction(mesh_.solutionDict())
             << "solvers has no entry for the tracer " << name()
-            << "; expected one, as for U" << exit(FatalIOError);
+            << "; expected one, as for U, and nLimiterIter in it"
+            << exit(FatalIOError);
+    }
+    if (!mesh_.solverDict(name()).found("nLimiterIter"))
+    {
+        FatalIOErrorInFunction(mesh_.solverDict(name()))
+            << "the tracer " << name() << " has no nLimiterIter; expected"
+            << " 'nLimiterIter 10;', the iterations of the limiter of its flux"
+            << exit(FatalIOError);
     }
     fields_.requireWholeFlux();
     const auto* bed = mesh_.findObject<IOdictionary>("bedProperties");
