@@ -730,6 +730,12 @@ class Start(RefusedTest):
     def test_above_without_a_volume(self):
         self.assert_start_refused("start above; level 0.02;", "slurryStartDict", "volume")
 
+    def test_an_entry_that_the_start_does_not_use(self):
+        self.assert_start_refused("start feed; volume 1e-5;", "slurryStartDict", "start is feed", "no volume")
+        self.assert_start_refused("start feed; level 0.02;", "slurryStartDict", "start is feed", "no level")
+        self.assert_start_refused("start above; volume 1e-6; level 0.02;", "slurryStartDict", "start is above",
+                                  "no level", bed=True)
+
     def test_without_gravity(self):
         case = self.small()
         case.write("constant/g", "dimensions [0 1 -2 0 0 0 0]; value (0 0 0);")

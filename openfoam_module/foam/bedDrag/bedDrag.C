@@ -8,6 +8,7 @@
 #include "openfoam_module/drag/pore_shear_rate.hpp"
 #include "openfoam_module/drag/viscosity_ratio.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
@@ -344,8 +345,18 @@ void Foam::bedDrag::summary(const string& who) const
 
 Foam::string Foam::bedDrag::description() const
 {
+    const auto isSphere = [](const Tuple2<scalar, millfoam::drag::Shape>& one)
+    {
+        return one.second().sphericity == 1 &&
+               one.second().crosswise_sphericity == 1;
+    };
+    const bool takesShapes = law_ == &millfoam::drag::hoelzer_sommerfeld_law();
+    const bool spheres = std::all_of(shapes_.begin(), shapes_.end(), isSphere);
     return "drag law " + std::string(law_->name) + " (" +
-           std::string(law_->reference) + ")";
+           std::string(law_->reference) + ")" +
+           (takesShapes || spheres
+                ? ""
+                : ", which takes all balls for spheres and not their shapes");
 }
 
 

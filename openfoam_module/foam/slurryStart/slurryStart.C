@@ -69,6 +69,19 @@ const Enum<start> startNames({
 });
 
 
+//- Refuse an entry that this start does not use
+void refuseUnused(const dictionary& dict, const word& key)
+{
+    if (dict.found(key))
+    {
+        FatalIOErrorInFunction(dict)
+            << "start is " << dict.get<word>("start") << ", which has no "
+            << key << "; expected no entry '" << key << "', or start pool"
+            << exit(FatalIOError);
+    }
+}
+
+
 //- The levels between which slurry starts
 Pair<scalar> levels(
     const dictionary& dict, const heightCut& cut, const scalarField& solidity)
@@ -77,11 +90,14 @@ Pair<scalar> levels(
     const start kind = startNames.get("start", dict);
     if (kind == start::feed)
     {
+        refuseUnused(dict, "level");
+        refuseUnused(dict, "volume");
         return {cut.bottom(), cut.bottom()};
     }
     if (kind == start::above)
     {
         const scalar volume = dict.get<scalar>("volume");
+        refuseUnused(dict, "level");
         const scalar bedShare = dict.lookupOrDefault<scalar>("bedShare", 0.05);
         const scalar densest = gMax(solidity);
         if (!(bedShare >= 0 && bedShare < densest))
