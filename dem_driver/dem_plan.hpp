@@ -41,8 +41,8 @@ struct DemPlan {
   long resting_steps() const;  ///< of insertions and settling together; 0 of a run that continues another
   long total_steps() const;    ///< of insertions, settling and turning mill together
   /// Between two records whose overlaps are counted: five to ten records, so that whole parts of this length
-  /// fill the time between two restart files; where none does, the shortest part of more records. All records
-  /// where a restart file is written after fewer than five.
+  /// fill the time between two restart files; where none does, the shortest part of more records. The whole
+  /// time between two restart files where that is fewer than five records.
   long overlap_steps() const;
   double begin_time() const;  ///< DEM time at `begin`, s
   double duration() const;    ///< s of turning mill, from `begin` on

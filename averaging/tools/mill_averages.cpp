@@ -151,7 +151,7 @@ void take_windows(const meshing::Mill& mill, const fs::path& dumps, const RunMet
         mill.averages.start ? begin + *mill.averages.start : warned(steady_start(dumps / "results.json"));
   if (options.end || options.windows.size() > 1) return;
   const double window = to_number(options.windows.front()).value_or(0);  // 0: of the whole run
-  if (!(window > 0) || (!of_mill && *options.start + window > begin + duration)) return;
+  if (!(window > 0) || (!of_mill && *options.start + window > begin + duration + 1e-6 * window)) return;
   options.end = last_whole_window(*options.start, begin + duration, duration, window,
                                   agreed_timestep(options.timestep, run));
 }

@@ -104,7 +104,7 @@ void AveragesOfRun::require_walls() const {
   for (const averaging::LiveRequest& averages : requests_)
     for (const fs::path& wall : averages.request.walls)
       if (fs::equivalent(wall.parent_path(), folder_.walls(), none))
-        return meshing::require_walls_of_run(folder_.walls(), walls_, "those with which it began");
+        return meshing::require_walls_of_run(folder_.walls(), walls_, "fingerprints at the run's begin");
 }
 
 void AveragesOfRun::write_order() const {

@@ -102,9 +102,10 @@ void require_written_walls(const std::filesystem::path& folder) {
 
 void require_walls_of_run(const std::filesystem::path& folder, const std::map<std::string, std::string>& used,
                           const std::string& source) {
-  const auto refuse_wall = [&](const std::string& part, const std::string& why) {
+  const auto refuse_wall = [&](const std::string& part, const std::string& why,
+                               const std::string& mend = "put them back, or run millDem again") {
     throw std::runtime_error((folder / (part + ".stl")).string() + ": " + why + " (" + source +
-                             "); expected the walls of the dry run: put them back, or run millDem again");
+                             "); expected the walls of the dry run: " + mend);
   };
   for (const auto& [part, fingerprint] : used) {
     const std::filesystem::path wall = folder / (part + ".stl");
@@ -115,7 +116,8 @@ void require_walls_of_run(const std::filesystem::path& folder, const std::map<st
   }
   for (const auto& entry : std::filesystem::directory_iterator(folder))
     if (entry.path().extension() == ".stl" && used.count(entry.path().stem().string()) == 0)
-      refuse_wall(entry.path().stem().string(), "is not a wall of the dry run");
+      refuse_wall(entry.path().stem().string(), "is not a wall of the dry run",
+                  "remove it, averages are cut by all .stl here");
 }
 
 void require_known_walls(const WallSurface& surface, Ends ends, const std::filesystem::path& folder) {

@@ -187,6 +187,7 @@ TEST_F(Averages, AreNeededByARestartFileAndGoWithIt) {
     if (part > 0)
       tests::write_restart(folder.dem() / ("restart." + std::to_string(part * plan.restart_steps)), {250});
   }
+  tests::write_rows(folder, plan, 3 * plan.restart_steps);
   EXPECT_EQ(last_good_restart(folder, plan), 3 * plan.restart_steps);
   // So do the open contacts where they are followed
   plan.watches_contacts = true;

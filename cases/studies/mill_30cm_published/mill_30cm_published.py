@@ -177,6 +177,8 @@ def write_all(root: Path, dry: dict[str, MillCase], flows: dict[str, Flow], miss
                         ("statements", [asdict(one) for one in found])):
         if table:
             write_csv(root / f"{name}.csv", table)
+        else:
+            (root / f"{name}.csv").unlink(missing_ok=True)
     drawings.draw_all(root, flows)
     cases = {**dry, **{name: flow.case for name, flow in flows.items()}}
     names = sorted(cases, key=lambda name: (RUNS[name].speed != REFERENCE.speed, name != REFERENCE.name))

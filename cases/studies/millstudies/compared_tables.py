@@ -7,7 +7,8 @@ freedom (Mean.sign). Of numbers that are the same, one in 20 would differ by cha
 because Welch's degrees are careful then.
 
 A run differs if more of its numbers do than chance explains: if so many or more of as many independent numbers, each
-with a chance of 5 %, have a probability below CHANCE. Numbers of a flow are not independent, so this is a guide. Of 22
+with a chance of 5 %, have a probability below CHANCE, or if its only number differs by so much. Several runs share
+CHANCE. Numbers of a flow are not independent, so this is a guide. Of 22
 made-up normal numbers with a correlation of 0, 0.5 and 0.8, a run that is the same was called different in 0, 0.4 and
 1.7 % of cases with two turns, and in 0.1, 2.7 and 5 % with three."""
 import csv
@@ -17,7 +18,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from scipy.stats import binom
+from scipy.stats import binom, t
 
 from millfoam.files.data_files import DataError, read_text
 from millfoam.readings.means import CONFIDENCE, Mean
@@ -47,6 +48,11 @@ class Number:
         return bool(np.isfinite(self.difference.value) and self.difference.error > 0)
 
     @property
+    def probability(self) -> float:
+        """Of so large a difference, or a larger one, of numbers that are the same."""
+        return float(2 * t.sf(abs(self.difference.value) / self.difference.error, self.difference.freedom))
+
+    @property
     def line(self) -> str:
         """As a line of text: column, both means, difference over its error, how much it needs."""
         means = "".join(text(self.column, one).rjust(24) for one in (self.here, self.there))
@@ -59,10 +65,12 @@ class Number:
 
 @dataclass(frozen=True)
 class ComparedRun:
-    """A run that is in both tables: its name, its version here and there, its numbers."""
+    """A run that is in both tables: its name, its version here and there, its numbers; probability below which a count
+    of differing numbers is no chance, which several runs share."""
     name: str
     versions: tuple[str, str]
     numbers: list[Number]
+    chance: float = CHANCE
 
     @property
     def known(self) -> list[Number]:
@@ -76,13 +84,15 @@ class ComparedRun:
 
     @property
     def most(self) -> int:
-        """How many numbers may differ by chance: one more has a probability below CHANCE."""
+        """How many numbers may differ by chance: one more has a probability below `chance`."""
         counts = np.arange(len(self.known) + 1)
-        return int(counts[binom.sf(counts, len(self.known), 1 - CONFIDENCE) < CHANCE][0])
+        return int(counts[binom.sf(counts, len(self.known), 1 - CONFIDENCE) < self.chance][0])
 
     @property
     def differs(self) -> bool:
-        """Whether more numbers differ than chance explains."""
+        """Whether more numbers differ than chance explains; of a single number, whether it differs by more."""
+        if len(self.known) == 1:
+            return self.known[0].probability < self.chance
         return self.differing > self.most
 
     @property
@@ -114,8 +124,8 @@ def read_table(path: Path, names: Collection[str]) -> dict[str, Row]:
     for column in ("run", "version", *(f"{name}{end}" for name in mean_names(columns) for end in ("", *ENDS))):
         if column not in columns:
             head = ",".join(columns)
-            raise DataError(f"{path}: no column '{column}' in '{head[:60]}{'…' * (len(head) > 60)}'; expected a table "
-                            f"of this study with one: {AGAIN}")
+            raise DataError(f"{path}: no column '{column}' in '{head[:60]}{'…' * (len(head) > 60)}'; expected a "
+                            f"table of this study with one: {AGAIN}")
     numbers = {f"{name}{end}" for name in mean_names(columns) for end in ("", *ENDS)}
     found: dict[str, Row] = {}
     for cells in lines:
@@ -168,11 +178,11 @@ def is_same(one: str, other: str) -> bool:
         return one == other
 
 
-def compared(name: str, here: Row, there: Row) -> ComparedRun:
-    """ComparedRun of the rows of a run. A number that is the same as one before in both, as the last of two distances
-    is the first, is left out; and so is one that is known in none."""
+def compared(name: str, here: Row, there: Row, begin: str = "") -> ComparedRun:
+    """ComparedRun of the rows of a run, of numbers whose names begin like this. A number that is the same as one before
+    in both, as the last of two distances is the first, is left out; and so is one that is known in none."""
     numbers: list[Number] = []
-    for column in mean_names(list(here)):
+    for column in (one for one in mean_names(list(here)) if one.startswith(begin)):
         pair = mean_of(here, column), mean_of(there, column)
         if any((one.here, one.there) == pair for one in numbers) or all(np.isnan(one.value) for one in pair):
             continue

@@ -4,11 +4,9 @@
 \*---------------------------------------------------------------------------*/
 
 #include "closedMill.H"
-#include "directionMixedFvPatchFields.H"
 #include "fixedValueFvPatchFields.H"
-#include "mixedFvPatchFields.H"
 #include "superficialInletVelocityFvPatchVectorField.H"
-#include "zeroGradientFvPatchFields.H"
+#include "wallFvPatch.H"
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
@@ -19,15 +17,6 @@ namespace
 
 //- Largest share of the fluid that may have come in without room
 constexpr scalar largest_ = 1e-3;
-
-
-//- Whether a patch lets pass what the flow brings
-bool isOpen(const fvPatchVectorField& U)
-{
-    return isA<zeroGradientFvPatchVectorField>(U) ||
-           isA<mixedFvPatchVectorField>(U) ||
-           isA<directionMixedFvPatchVectorField>(U);
-}
 
 
 //- Whether the velocity at a patch does not depend on time or the flow
@@ -42,6 +31,15 @@ bool isFixed(const fvPatchVectorField& U)
 }
 
 
+//- Whether fluid may leave through a patch whose velocity is not fixed: it lets
+//  pass what the flow brings, or its rate is not known at the start
+bool mayLetOut(const fvPatchVectorField& U)
+{
+    return !U.coupled() && !isA<wallFvPatch>(U.patch()) &&
+           !polyPatch::constraintType(U.patch().type());
+}
+
+
 void refuseFeed(const volVectorField& U, const volScalarField& voidage)
 {
     scalar out = 0;
@@ -50,9 +48,9 @@ void refuseFeed(const volVectorField& U, const volScalarField& voidage)
     DynamicList<word> names;
     for (const fvPatchVectorField& patch : U.boundaryField())
     {
-        open = open || isOpen(patch);
         if (!isFixed(patch))
         {
+            open = open || mayLetOut(patch);
             continue;
         }
         tmp<fvPatchVectorField> now(patch.clone());
@@ -130,12 +128,12 @@ void Foam::closedMill::add(
     {
         FatalErrorInFunction
             << "time " << mesh_.time().timeName() << ": " << surplus_
-            << " m3 of fluid have come in through patches or were displaced by"
-            << " walls, " << 100 * surplus_ / fluid << " % of the " << fluid
-            << " m3 in the mill, and no patch gives a pressure, through which"
-            << " they could leave; expected such an outlet, as one with"
-            << " prghPressure for p_rgh, or neither feed nor walls that change"
-            << " the mill's volume" << exit(FatalError);
+            << " m3 of fluid (below 0: left) have come in through patches or"
+            << " were displaced by walls, " << 100 * surplus_ / fluid
+            << " % of the " << fluid << " m3 in the mill, and no patch gives a"
+            << " pressure, which would balance them; expected such a patch, as"
+            << " one with prghPressure for p_rgh, or neither feed nor walls"
+            << " that change the mill's volume" << exit(FatalError);
     }
 }
 

@@ -56,12 +56,12 @@ void refuseLaterResults(const Time& time)
             << " 'reconstructPar -latestTime' before a flow on one rank. Remove"
             << " processor* or run Allclean to begin again" << exit(FatalError);
     }
-    if (Pstream::parRun() && whole && *whole > ranks.value_or(-GREAT))
+    if (Pstream::parRun() && whole && ranks && *whole > *ranks)
     {
         FatalErrorInFunction
             << folder << ": a flow on one rank has reached " << *whole
             << " s in the case itself, and processor* have no time later than "
-            << ranks.value_or(0) << " s: the results would be replaced."
+            << *ranks << " s: the results would be replaced."
             << " Expected 'slurryFoam' on one rank, which resumes the flow, or"
             << " 'decomposePar -latestTime -force' before a flow on several"
             << " ranks. Remove the later times of the case to resume that of"

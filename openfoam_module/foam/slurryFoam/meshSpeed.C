@@ -38,6 +38,7 @@ enum class wallMotion
 std::optional<scalar> turnOf(const fvPatchVectorField& wall)
 {
     OStringStream text;
+    text.precision(17); // Of all digits, whatever writePrecision is
     wall.write(text);
     const dictionary dict(IStringStream(text.str())());
     const autoPtr<Function1<scalar>> omega(
@@ -105,9 +106,9 @@ void checkTurningWalls(
             FatalIOErrorInFunction(mill)
                 << "omega is " << omega << " rad/s about z, but the wall "
                 << patch.patch().name() << " of U has rotatingWallVelocity"
-                << " with another omega or axis; expected 'omega " << omega
-                << ";' and 'axis (0 0 1);' there, or noSlip at a wall that"
-                << " rests" << exit(FatalIOError);
+                << " with another omega or axis; expected all digits of that"
+                << " omega, as by 'omega $omega;', and 'axis (0 0 1);' there,"
+                << " or noSlip at a wall that rests" << exit(FatalIOError);
         }
     }
 }

@@ -175,7 +175,9 @@ Foam::slurryFlow::slurryFlow(
   state_(IOobject(
       "slurryFlow", mesh.time().timeName(), "uniform", mesh,
       IOobject::READ_IF_PRESENT, IOobject::AUTO_WRITE)),
-  withoutRoom_(state_.lookupOrDefault<scalar>("withoutRoom", 0)),
+  // Versions before 0.3.0 wrote it as misfit, with the other sign
+  withoutRoom_(state_.lookupOrDefault<scalar>(
+      "withoutRoom", -state_.lookupOrDefault<scalar>("misfit", 0))),
   closed_(p_rgh_, U_, voidage_, state_.lookupOrDefault<scalar>("surplus", 0)),
   voidageChange_(state_.lookupOrDefault<scalar>("voidageChange", 0)),
   told_(bed_.feelsFlow() ? new toldForces(mesh) : nullptr)
