@@ -202,7 +202,8 @@ class MadeOnce(unittest.TestCase):
         mill = read_mill(folder).fingerprint
         if name == "millAverage":
             self.assertTrue((folder / words[words.index("--case") + 1] / "mill.json").is_file())
-            self.write(folder / "solids.json", {"format": "millfoam-averages", "mill": {"averages": mill["averages"]}})
+            self.write(folder / "solids.json", {"format": "millfoam-averages", "mill": {"averages": mill["averages"]},
+                                                "time0_s": 0.5})
             (folder / "solids.h5").write_text("")
         if name == "slurryFoam":
             self.assertTrue((folder / "solids.h5").is_file() and (folder / "0" / "U").is_file())

@@ -103,12 +103,15 @@ void checkTurningWalls(
         if (speed && *speed != 0 &&
             mag(*speed - omega) > 1e-6 * max(mag(*speed), mag(omega)))
         {
+            OStringStream digits; // More than writePrecision may have
+            digits.precision(15);
+            digits << omega;
             FatalIOErrorInFunction(mill)
                 << "omega is " << omega << " rad/s about z, but the wall "
                 << patch.patch().name() << " of U has rotatingWallVelocity"
-                << " with another omega or axis; expected all digits of that"
-                << " omega, as by 'omega $omega;', and 'axis (0 0 1);' there,"
-                << " or noSlip at a wall that rests" << exit(FatalIOError);
+                << " with another omega or axis; expected 'omega "
+                << digits.str().c_str() << ";' and 'axis (0 0 1);' there, or"
+                << " noSlip at a wall that rests" << exit(FatalIOError);
         }
     }
 }
