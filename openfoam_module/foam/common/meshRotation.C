@@ -9,6 +9,7 @@
 #include "optionalDictionary.H"
 #include "IOdictionary.H"
 #include "vector.H"
+#include "point.H"
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
