@@ -14,9 +14,10 @@ from millstudies.compared_tables import CHANCE, ComparedRun, compared, lines_of,
 from runs import RUNS
 
 FLOWS, CHARGES = "flows.csv", "charges.csv"
+# Begin of the names of the columns that are compared. Errors of the charge's other numbers are of blocks that are
+# shorter than a turn: lower bounds
+COMPARED = {FLOWS: "", CHARGES: "power, W"}
 # What a run is made with
-# Errors of the charge's other numbers are of blocks that are shorter than a turn: lower bounds
-COMPARED = {FLOWS: "", CHARGES: "power, W"}  # begin of the names of the columns
 SETTINGS = {FLOWS: ("speed, %", "solids, %", "law", "turns", "feed, ml/s"), CHARGES: ("speed, %",)}
 
 
