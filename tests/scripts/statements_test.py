@@ -151,8 +151,9 @@ class TwoHumps(unittest.TestCase):
 
     def test_maxima_below_the_error_do_not_count(self):
         height = gaussians(Z, -0.06, 0.01, 0.1, 0.02, 0.002, 0.2, 0.02)
-        self.assertEqual(len(statements.maxima(Z, height, 1e-4)), 2)
-        self.assertEqual(len(statements.maxima(Z, height, 5e-4)), 1)
+        for error, count, verdict in ((1e-4, 2, CONFIRMED), (5e-4, 1, UNDECIDED), (np.nan, 0, UNDECIDED)):
+            self.assertEqual(len(statements.maxima(Z, height, error)), count)
+            self.assertEqual(statements.two_maxima(Z, height, error), verdict)
 
     def test_raised_ends_are_no_humps(self):
         run_60 = run(60, series=series(np.abs(Z - 0.15)))

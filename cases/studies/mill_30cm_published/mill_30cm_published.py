@@ -97,7 +97,8 @@ def beyond_limits(flow: Flow) -> Iterator[str]:
 
 
 def cost_row(run: Run, root: Path) -> Row:
-    """What a run took, with all of its passes, and what Allrun --plan foretold where it was asked."""
+    """What a run took, with all of its passes, and what Allrun --plan foretold where it was asked. A plan has the times
+    of a single pass, so those of balls and slurry in turn are left out."""
     cases = [MillCase(folder) for folder in folders_of(root, run)]
     summaries = [one for case in cases if case.flow for _, one in case.record.summaries]
     # The first case of a run that is not dry has the balls of its dry run
@@ -114,7 +115,7 @@ def cost_row(run: Run, root: Path) -> Row:
     if plan.is_file():
         content = read_json(plan, "plan")
         planned = {one["stage"]: one for one in content["stages"]}
-        for stage in ("charge", "flow"):
+        for stage in ("charge", "flow") if len(cases) == 1 else ():
             row[f"planned {stage}, min"] = planned[stage]["time_s"] / 60 if stage in planned else None
         row["planned memory, GB"] = content["total"]["memory_bytes"] / 1e9
         row["planned disk, GB"] = content["total"]["disk_bytes"] / 1e9

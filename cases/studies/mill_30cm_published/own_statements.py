@@ -18,7 +18,7 @@ from millstudies.axial_slices import PRESSURES, Profile, jackknife
 from millstudies.compared_runs import (CONFIRMED, CONTRADICTED, NOT_TESTED, UNDECIDED, Runs, Verdict, by_sign, judged,
                                        unlike, withheld)
 from millstudies.statements import (about_twice, circulation, larger_drop, maxima, millimetres, ratio_words,
-                                    reynolds_below, surface_follows)
+                                    reynolds_below, surface_follows, two_maxima)
 
 from as_published import why_withheld
 from flow_numbers import Flow
@@ -53,11 +53,8 @@ def clear_maxima(profile: Profile) -> np.ndarray:
 
 
 def has_two(profile: Profile) -> str:
-    """Verdict on two maxima of a Profile; undecided where the error decides, or is not known."""
-    counts = {len(clear_maxima(profile)), len(maxima(profile.z, profile.height, 0.0))}
-    if np.isnan(profile.error) or (len(counts) > 1 and min(counts) <= 2 <= max(counts)):
-        return UNDECIDED
-    return CONFIRMED if counts == {2} else CONTRADICTED
+    """Verdict on two maxima of a Profile (statements.two_maxima)."""
+    return two_maxima(profile.z, profile.height, profile.error)
 
 
 def apart_words(distance: Mean) -> str:
