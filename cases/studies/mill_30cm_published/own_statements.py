@@ -15,7 +15,7 @@ from millfoam.readings.compare import difference
 from millfoam.readings.free_surface import toe_and_shoulder
 from millfoam.readings.means import Mean, of_reading, with_error
 from millstudies.axial_slices import PRESSURES, Profile, jackknife
-from millstudies.compared_runs import (CONFIRMED, CONTRADICTED, NOT_TESTED, UNDECIDED, Runs, Verdict, by_sign, judged,
+from millstudies.compared_runs import (CONFIRMED, NOT_TESTED, UNDECIDED, Runs, Verdict, by_sign, judged,
                                        unlike, withheld)
 from millstudies.statements import (about_twice, circulation, larger_drop, maxima, millimetres, ratio_words,
                                     reynolds_below, surface_follows, two_maxima)
