@@ -36,7 +36,8 @@ MESHES = {
 }
 # Turning, rad/s: four fifths of the critical speed of 30 cm, half of that of 12 cm. Only round walls slide past a pool.
 OMEGA = {"ogrid": -6.4, "drum": -6.4}
-QUICK_END, LONG_END, RECORDS = 0.2, 1.0, 40
+QUICK_END, LONG_END = 0.15, 1.0  # s
+QUICK_RECORDS, LONG_RECORDS = 15, 40
 # Bed, in radii: sides, lower and upper end from the pool's level, soft edge (16.5 mm in a mill of 12 cm: as soft as
 # averages on voxels of 11 mm). It touches no wall, so that its volume in the mesh is known.
 BED_SIDES, BED_ENDS, BED_EDGE = (-0.5, 0.4), (-0.4, 0.35), 0.275
@@ -46,13 +47,13 @@ BEDS = {"slurryFoam": "bedProperties", "interFoam": "fvOptions"}  # solver -> fi
 
 
 def matrix(meshes, solvers, quick):
-    """Every run, the O-grid's first. Quick: a few with surface tension for a short time, slurry alone in a bed, and the
-    slice, whose pool has a thin film at its edge."""
+    """Every run, the O-grid's first. Quick: a few with surface tension for a short time, slurry alone in a bed at rest
+    and turning, and the slice, whose pool has a thin film at its edge."""
     if quick:
         settings = [("ogrid", False, False), ("ogrid", False, True), ("ogrid", True, False), ("ogrid", True, True),
                     ("mill", False, False)]
         runs = [Run(mesh, solver, TENSION, turning, bed) for mesh, turning, bed in settings for solver in BEDS]
-        runs += [Run(mesh, "slurryFoam", 0, mesh in OMEGA, bed=True, filled=True) for mesh in ("mill", "ogrid")]
+        runs += [Run("ogrid", "slurryFoam", 0, turning, bed=True, filled=True) for turning in (False, True)]
         return runs + [Run("slice", "slurryFoam", TENSION, turning=False)]
     runs = []
     for mesh in meshes:
@@ -73,9 +74,9 @@ def bed_parameters(level, radius, length):
                 bedEdge=BED_EDGE * radius, bedSolidity=BED_SOLIDITY, bedVolume=BED_SOLIDITY * across * up * length)
 
 
-def build(run, case, here, end, gravity=GRAVITY):
-    """The case of a run: what all solvers share, the solver's own schemes, the mesh, the flat surface. gravity: along
-    -y, m/s2."""
+def build(run, case, here, end, records=LONG_RECORDS, gravity=GRAVITY):
+    """The case of a run: what all solvers share, the solver's own schemes, the mesh, the flat surface. records: how
+    many times are written; gravity: along -y, m/s2."""
     copy_case(case, RESOURCES / "common", RESOURCES / "closed", RESOURCES / "turning", here / "pool" / "common",
               *([here / "pool" / run.solver] if run.solver != "slurryFoam" else []))
     if run.bed:
@@ -84,7 +85,7 @@ def build(run, case, here, end, gravity=GRAVITY):
     write_parameters(
         case, solver=SOLVERS[run.solver], **SLURRY, **AIR, surfaceTension=run.tension,
         level=FULL if run.filled else level, **bed_parameters(level, radius, length), endTime=end,
-        writeInterval=end / RECORDS, wall="slip" if run.turning else "noSlip",
+        writeInterval=end / records, wall="slip" if run.turning else "noSlip",
         meshMotion="dynamicMotionSolverFvMesh" if run.turning else "staticFvMesh", meshOmega=OMEGA.get(run.mesh, 0),
         gravity=f"(0 {-gravity} 0)", skewCorrectors=1)
     if mill:
@@ -114,14 +115,14 @@ def kept(run, case, here, end):
     return history if history and history.time[-1] >= end - 1e-9 else None
 
 
-def perform(run, work, here, end, keep):
+def perform(run, work, here, end, records, keep):
     """History of a run: an earlier one's where `keep` allows it, else that of a run made now."""
     case = work / run.name
     earlier = kept(run, case, here, end) if keep else None
     if earlier:
         return earlier
     shutil.rmtree(case, ignore_errors=True)
-    build(run, case, here, end)
+    build(run, case, here, end, records)
     try:
         run_program(case, SOLVERS[run.solver])
     except RunError as error:
@@ -145,14 +146,15 @@ def main():
     parser.add_argument("--jobs", type=int, default=2)
     options = parser.parse_args()
     here, work, out = Path(__file__).parent.resolve(), options.work.resolve(), options.out.resolve()
-    end = QUICK_END if options.quick else LONG_END
+    end, records = (QUICK_END, QUICK_RECORDS) if options.quick else (LONG_END, LONG_RECORDS)
     runs = matrix(options.meshes, options.solvers, options.quick)
     for program in sorted({SOLVERS[run.solver] for run in runs}):
         if not shutil.which(program):
             parser.error(f"{program} is not on the PATH: run scripts/setup, then cmake --build build/release --target "
                          f"{program}, then source scripts/env")
     work.mkdir(parents=True, exist_ok=True)
-    histories = dict(zip(runs, run_jobs(lambda run: perform(run, work, here, end, options.keep), runs, options.jobs)))
+    histories = dict(zip(runs, run_jobs(lambda run: perform(run, work, here, end, records, options.keep), runs,
+                                        options.jobs)))
     missed = pool_table.report(histories, end, out)
     pool_pictures.speeds(histories, out / "pool_speeds.png")
     pool_pictures.maps(histories, work, out / "pool_maps.png")
