@@ -77,7 +77,7 @@ class Channel(SlurryTest):
 class Drop(SlurryTest):
     """A drop without gravity keeps its shape, and its pressure is sigma times its curvature."""
 
-    radius, per_radius, sigma = 0.01, 10, 0.07  # m, cells, N/m
+    radius, per_radius, sigma = 0.01, 8, 0.07  # m, cells, N/m
 
     def share(self, cells, centre):
         """Share of each cell in the drop, of 8 points along each axis; in one layer of cells it is a cylinder."""
@@ -113,12 +113,12 @@ class Drop(SlurryTest):
         return np.mean(jumps), max(speeds)
 
     def test_cylinder(self):
-        jump, speed = self.jump((32, 32, 1), 0.1)
+        jump, speed = self.jump((26, 26, 1), 0.1)
         self.assertAlmostEqual(jump, self.sigma / self.radius, delta=0.03 * self.sigma / self.radius)
         self.assertLess(speed, 0.03)
 
     def test_sphere(self):
-        jump, speed = self.jump((28, 28, 28), 0.03)
+        jump, speed = self.jump((22, 22, 22), 0.024)
         self.assertAlmostEqual(jump, 2 * self.sigma / self.radius, delta=0.05 * 2 * self.sigma / self.radius)
         self.assertLess(speed, 0.08)
 
@@ -127,7 +127,7 @@ class Meniscus(SlurryTest):
     """Slurry between two plates without gravity, whose surface starts as a plane: an arc of a circle that meets the
     plates at the contact angle."""
 
-    gap, cells, sigma, end = 0.01, (20, 40, 1), 0.07, 0.3  # m, of the box, N/m, s
+    gap, cells, sigma, end = 0.01, (16, 26, 1), 0.07, 0.3  # m, of the box, N/m, s
 
     def settled(self, plates, tilt=0.0):
         """Pressure (Pa) in the slurry less that in the air, and height (m) of the surface in each column of cells, mean
@@ -135,7 +135,7 @@ class Meniscus(SlurryTest):
         edge = self.gap / self.cells[0]
         case = self.slurry_case(
             upper=tuple(edge * np.array(self.cells)), cells=self.cells,
-            level=lambda x: 20.3 * edge + tilt * (x - self.gap / 2),
+            level=lambda x: 13.3 * edge + tilt * (x - self.gap / 2),
             bingham="yieldStress 0; plasticViscosity 0.1; regularisation biviscosity; viscosityRatio 1;")
         with_tension_alone(case, self.sigma)
         for side in ("left", "right"):
@@ -147,20 +147,19 @@ class Meniscus(SlurryTest):
         height = case.centres()[:, 1]
         for time in self.end * np.arange(31, 61) / 60:
             p = case.field("p", time)
-            jumps.append(p[height < 0.3 * self.gap].mean() - p[height > 1.7 * self.gap].mean())
+            jumps.append(p[height < 0.3 * self.gap].mean() - p[height > edge * self.cells[1] - 0.3 * self.gap].mean())
             heights.append(edge * case.field("alpha.slurry", time).reshape(self.cells[1], self.cells[0]).sum(axis=0))
         return np.mean(jumps), np.mean(heights, axis=0)
 
     def test_has_the_angles_arc_and_pressure(self):
-        for angle in (45, 90, 135):
+        for angle in (45, 135):
             with self.subTest(angle=angle):
                 cosine = np.cos(np.radians(angle))
                 jump, height = self.settled(f"type constantAlphaContactAngle; theta0 {angle}; limit gradient;",
                                             tilt=0.3)
                 scale = 2 * self.sigma / self.gap
                 x = (np.arange(self.cells[0]) + 0.5) / self.cells[0] - 0.5
-                arc = 0 * x if angle == 90 else (
-                    np.sign(cosine) * self.gap * (0.5 / abs(cosine) - np.sqrt((0.5 / cosine) ** 2 - x**2)))
+                arc = np.sign(cosine) * self.gap * (0.5 / abs(cosine) - np.sqrt((0.5 / cosine) ** 2 - x**2))
                 error = height - height.mean() - arc + arc.mean()
                 self.assertAlmostEqual(jump / scale, -cosine, delta=0.12)
                 self.assertLess(np.abs(error).max(), 0.08 * self.gap)
@@ -221,14 +220,14 @@ class PoreSuction(SlurryTest):
         return self.rise / self.speed * (-np.log(1 - share) - share)
 
     def test_pulls_the_slurry_up(self):
-        end = self.duration(0.9 * self.rise) - self.duration(self.first)
+        end = self.duration(0.8 * self.rise) - self.duration(self.first)
         times, heights = self.column(end)
         levels = np.linspace(self.first, 0.99 * self.rise, 5000)
         expected = np.interp(times, self.duration(levels) - self.duration(self.first), levels)
         np.testing.assert_allclose(heights, expected, atol=2e-3 * self.rise)
 
     def test_is_off_by_default(self):
-        times, heights = self.column(0.5, option="", first=self.rise)
+        times, heights = self.column(0.3, option="", first=self.rise)
         np.testing.assert_allclose(heights, self.rise - self.speed * times, atol=2e-3 * self.rise)
 
 

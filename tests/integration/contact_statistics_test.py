@@ -69,7 +69,8 @@ geometry: {diameter: 0.06, length: 0.03, ends: periodic, lifters: {count: 6, hei
 speed: {fraction_of_critical: 0.7, sense: clockwise}
 charge: {classes: [{diameter: 0.004, mass: 0.014}, {diameter: 0.003, mass: 0.006}], start_radius: 0.02}
 materials: {ball: glass, wall: HDPE}
-dem: {youngs_modulus: 5e6, settle_time: 0.1, duration: 0.5, record_interval: 0.005, seed: 3, contact_statistics: true}
+dem: {youngs_modulus: 5e6, settle_time: 0.1, duration: 0.3, record_interval: 0.005, seed: 3,
+      contact_statistics: true}
 slurry: {density: 1239, plastic_viscosity: 0.0014, yield_stress: 0.16}
 resolution: {cell_size: 0.003, layers: 4}
 averages: {start: 0.1}

@@ -25,11 +25,11 @@ geometry: {diameter: 0.06, length: 0.02, ends: periodic, lifters: {count: 6, hei
 speed: {fraction_of_critical: 0.6, sense: clockwise}
 charge: {fill: 0.3, diameter: 0.004}
 materials: {ball: glass, wall: HDPE}
-dem: {settle_time: 0.15, duration: 0.6, record_interval: 0.005, seed: 3}
+dem: {settle_time: 0.1, duration: 0.3, record_interval: 0.005, seed: 3}
 slurry: {density: 1239, plastic_viscosity: 0.0014, yield_stress: 0.16}
-averages: {voxel_size: 0.008, window: 0.05, start: 0.4}
+averages: {voxel_size: 0.008, window: 0.05, start: 0.15}
 resolution: {cell_size: 0.006, layers: 2}
-flow: {duration: 0.3, coupling: iterated, passes: 2, averages: {start: 0.1}}
+flow: {duration: 0.15, coupling: iterated, passes: 2, averages: {start: 0.05}}
 """
 
 
@@ -161,8 +161,8 @@ class Passes(unittest.TestCase):
         self.assertIn("resumed at step", (second / "log.charge").read_text())
         self.assertFalse((second / "slurry.h5").exists())
 
-        output = run_mill(case, "mill.yaml")
-        self.assertEqual(stages("Running", output), ["flow", "coupling", "pictures", "report"])
+        output = run_mill(case, "mill.yaml", undrawn="pictures")
+        self.assertEqual(stages("Running", output), ["flow", "coupling", "report"])
         before = ["walls", "charge", "average", "mesh", "check", "start"]
         self.assertEqual(stages("Keeping", output), [*before, "flow", "forces", *before])
         self.assertGreater(starts(second)[-1][0], 0)

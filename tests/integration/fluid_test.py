@@ -36,7 +36,7 @@ FALLING = MILL.replace("MASS", "9e-5").replace("start_radius: 0.02", "start_radi
     "settle_time: 0.1, duration: 0.2", "settle_time: 0, duration: 0.06").replace(
         "averages: {voxel_size: 0.006, window: 0.05, start: 0.1}\n", "")
 BALLS = 216
-BED = MILL.replace("MASS", str(BALLS * ONE_BALL))
+BED = MILL.replace("MASS", str(BALLS * ONE_BALL)).replace("youngs_modulus: 1e7", "youngs_modulus: 5e6")
 SHORT_BED = BED.replace("averages: {voxel_size: 0.006, window: 0.05, start: 0.1}\n", "")
 
 

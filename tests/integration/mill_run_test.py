@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A shortened run of the 12 cm mill, every stage real: the result must be a mill; and what Allrun makes again.
 
-The mill itself with coarser cells, less time, and balls of 3 mm for those of 2 mm: slurryFoam with the law's drag and
-with none, and interFoam with particleDrag."""
+The mill itself with coarser cells, less time, and balls of 4 mm for those of 2 and 3 mm: slurryFoam with the law's drag
+and with none, and interFoam with particleDrag."""
 import fcntl
 import os
 import re
@@ -29,8 +29,8 @@ import mills_test
 
 ROOT = Path(__file__).resolve().parents[2]
 MILL = ROOT / "cases" / "mills" / "mill_12cm" / "mill.yaml"
-START, END, LATE = 0.4, 0.4, 0.2  # DEM time at flow time 0; the flow's end; averages from then on, s
-CLASSES = ((0.008, 0.091), (0.006, 0.133), (0.005, 0.155), (0.004, 0.169), (0.003, 0.275))  # m, kg
+START, END, LATE = 0.3, 0.4, 0.2  # DEM time at flow time 0; the flow's end; averages from then on, s
+CLASSES = ((0.008, 0.091), (0.006, 0.133), (0.005, 0.155), (0.004, 0.444))  # m, kg
 CHANGES = ("resolution={cell_size: 0.005, layers: 10}", "dem.youngs_modulus=5e6",
            f"charge.classes=[{', '.join(f'{{diameter: {size}, mass: {mass}}}' for size, mass in CLASSES)}]",
            f"dem.duration={START + END}", f"flow.duration={END}",
@@ -49,11 +49,8 @@ class ShortMill(unittest.TestCase):
         cls.addClassCleanup(shutil.rmtree, cls.folder)
         cls.flows = {}
         for name, changes in VARIANTS.items():
-            if name == "law":
-                run_mill(cls.folder / name, MILL, *CHANGES, *changes)
-            else:  # without pictures
-                run_mill(cls.folder / name, MILL, *CHANGES, *changes, charge=cls.folder / "law", until="flow")
-                run(cls.folder / name, ROOT / "scripts" / "report", ".")
+            run_mill(cls.folder / name, MILL, *CHANGES, *changes, undrawn="pictures",
+                     charge=None if name == "law" else cls.folder / "law")
             cls.flows[name] = MillFlow(cls.folder / name)
         cls.solids = solids_file.read_map(cls.folder / "law" / "solids.h5", START + LATE, START + END)
         cls.print_summary()
@@ -151,20 +148,17 @@ class ShortMill(unittest.TestCase):
                 self.assertTrue(part in text, f"{name}: {part}")
 
 
-class Again(unittest.TestCase):
-    """A small mill that was run: what a second call keeps, makes again and refuses."""
+class Again(mills_test.GlassMill, unittest.TestCase):
+    """A small mill that was run: what it is, and what a second call keeps, makes again and refuses."""
+    CALLS = (("--until", "flow"), ())
 
     @classmethod
     def setUpClass(cls):
-        folder = Path(tempfile.mkdtemp(prefix="mill-again-"))
-        cls.addClassCleanup(shutil.rmtree, folder)
-        (folder / "mill.yaml").write_text(mills_test.SliceOfGlass.YAML)
-        run(folder, ROOT / "scripts" / "new_mill", "mill.yaml", folder / "case")
-        cls.whole = folder / "case"
-        run(cls.whole, "./Allrun", "--until", "flow")
-        # What that call has set up is there
+        super().setUpClass()
+        cls.whole = cls.case
+        cls.again = cls.stages(cls.outputs[-1])
+        # What these calls have set up is there
         cls.enterClassContext(mock.patch.dict(os.environ, without_setup="yes"))
-        cls.again = cls.stages(run(cls.whole, "./Allrun"))
 
     def setUp(self):
         folder = Path(tempfile.mkdtemp(prefix="mill-again-"))
@@ -187,15 +181,15 @@ class Again(unittest.TestCase):
             run(self.case, *command)
         return " ".join((self.case / f"log.{Path(command[0]).name}").read_text().split())
 
-    FLOW = ["mesh", "check", "start", "flow"]
+    FLOW_STAGES = ["mesh", "check", "start", "flow"]
 
     def test_everything_is_kept_and_costs_are_of_all_calls(self):
         made, kept = self.again
-        self.assertEqual(kept, ["walls", "charge", "average", *self.FLOW])
+        self.assertEqual(kept, ["walls", "charge", "average", *self.FLOW_STAGES])
         self.assertEqual(made, ["pictures", "report"])
-        self.assertEqual(self.costs(), sorted(["walls", "charge", "average", *self.FLOW, "pictures", "report"]))
+        self.assertEqual(self.costs(), sorted(["walls", "charge", "average", *self.FLOW_STAGES, "pictures", "report"]))
         self.allrun("--set", "flow.law=Hill", "--until", "start")
-        self.assertEqual(self.costs(), sorted(["walls", "charge", "average", *self.FLOW]))
+        self.assertEqual(self.costs(), sorted(["walls", "charge", "average", *self.FLOW_STAGES]))
 
     def costs(self):
         """The stages of log.costs, sorted."""
@@ -207,7 +201,7 @@ class Again(unittest.TestCase):
             costs = (self.case / "log.costs").read_text()
             for until in ((), ("--until", "charge")):
                 self.assertIn(words, self.refused("./Allrun", "--set", change, *until))
-            self.assertEqual(self.allrun("--until", "flow"), ([], ["walls", "charge", "average", *self.FLOW]))
+            self.assertEqual(self.allrun("--until", "flow"), ([], ["walls", "charge", "average", *self.FLOW_STAGES]))
             for stage in ("charge", "mesh"):
                 lines = [[line for line in text.splitlines() if line.startswith(f"{stage},")]
                          for text in (costs, (self.case / "log.costs").read_text())]
@@ -215,11 +209,11 @@ class Again(unittest.TestCase):
             self.assertNotIn("~", (self.case / "log.costs").read_text())
 
     def test_a_result_that_is_gone_is_made_again(self):
-        for file, stage in (("constant/polyMesh/points", "mesh"), ("solids.h5", "average"), ("0.05", "flow"),
-                            ("slurry.h5", "start")):
+        for file, stage, until in (("0.05", "flow", "flow"), ("slurry.h5", "start", "flow"),
+                                   ("constant/polyMesh/points", "mesh", "mesh"), ("solids.h5", "average", "average")):
             path = self.case / file
             shutil.rmtree(path) if path.is_dir() else path.unlink()
-            made, _ = self.allrun("--until", "flow")
+            made, _ = self.allrun("--until", until)
             self.assertEqual(made[0], stage)
             self.assertTrue(path.exists())
 
@@ -228,7 +222,7 @@ class Again(unittest.TestCase):
             path.unlink()
         output = self.refused("./Allrun", "--set", "averages.window=0.05")
         self.assertIn("no dump.*.txt; expected those of the dry run: remove .stages/charge", output)
-        self.assertEqual(self.allrun("--until", "flow"), ([], ["walls", "charge", "average", *self.FLOW]))
+        self.assertEqual(self.allrun("--until", "flow"), ([], ["walls", "charge", "average", *self.FLOW_STAGES]))
 
     def test_files_of_the_owner_that_begin_with_a_digit_are_kept(self):
         (self.case / "2024-05-01").write_text("a note\n")
@@ -247,14 +241,14 @@ class Again(unittest.TestCase):
 
     def test_another_law_makes_mesh_and_flow_again(self):
         made, kept = self.allrun("--until", "flow", "--set", "flow.law=Hill")
-        self.assertEqual((made, kept), (self.FLOW, ["walls", "charge", "average"]))
+        self.assertEqual((made, kept), (self.FLOW_STAGES, ["walls", "charge", "average"]))
         self.assertEqual(read_json(self.case / "mill.json", "mill")["derived"]["flow"]["law"], "Hill")
         # The charge that was kept belongs to this mill too
         self.assertEqual(same_mill(MillCase(self.case)).state, "holds")
 
     def test_another_window_makes_the_averages_again(self):
         made, kept = self.allrun("--until", "flow", "--set", "averages.window=0.05")
-        self.assertEqual((made, kept), (["average", *self.FLOW], ["walls", "charge"]))
+        self.assertEqual((made, kept), (["average", *self.FLOW_STAGES], ["walls", "charge"]))
         self.assertEqual(read_json(self.case / "solids.json", "averages")["windows"], 4)
 
     def test_another_speed_makes_the_charge_again(self):
@@ -297,10 +291,14 @@ class Again(unittest.TestCase):
         self.assertIn("0.05", self.refused("slurryStart"))
         self.assertEqual((self.case / "0.05" / "alpha.slurry").read_bytes(), before)
 
-    def test_slurry_of_another_solver_is_conserved(self):
+    def test_slurry_of_another_solver_is_conserved_and_back_from_it_the_flow_is_the_first_one(self):
+        properties = self.case / "constant" / "bedProperties"
+        properties.write_text(properties.read_text() + "// a change of the case's owner\n")
+        dictionaries = {path: path.read_text() for folder in ("0.orig", "constant", "system")
+                        for path in (self.case / folder).glob("*") if path.is_file()}
         made, kept = self.allrun("--until", "flow", "--set", "flow.solver=interFoam", "--set",
                                  "flow.write_interval=0.03")
-        self.assertEqual((made, kept), (self.FLOW, ["walls", "charge", "average"]))
+        self.assertEqual((made, kept), (self.FLOW_STAGES, ["walls", "charge", "average"]))
         self.assertIn("slurry.gif", run(self.case, ROOT / "scripts" / "plot_mill", "."))
         # Whose balls displace none: its share of the whole cells
         flow = MillFlow(self.case)
@@ -310,12 +308,6 @@ class Again(unittest.TestCase):
         self.assertAlmostEqual((alpha * flow.volumes).sum() / start, 1, delta=1e-3)
         self.assertAlmostEqual(flow.slurry_volumes()[1] / start, 1, delta=1e-3)
 
-    def test_back_from_another_solver_the_flow_is_the_first_one(self):
-        properties = self.case / "constant" / "bedProperties"
-        properties.write_text(properties.read_text() + "// a change of the case's owner\n")
-        dictionaries = {path: path.read_text() for folder in ("0.orig", "constant", "system")
-                        for path in (self.case / folder).glob("*") if path.is_file()}
-        self.allrun("--until", "flow", "--set", "flow.solver=interFoam")
         self.assertTrue((self.case / "constant" / "fvOptions").is_file())
         self.assertFalse(properties.exists())
         self.allrun("--until", "flow")

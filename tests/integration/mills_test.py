@@ -47,8 +47,9 @@ class MillRun:
     signed); BALLS, number of balls simulated by diameter (m); SOLIDS_SHAPE, SLURRY_SHAPE, numbers of voxels; PAST, what
     voxels reach beyond the mill where their size does not divide it (share of the mill); DENSITY of the balls (kg/m3);
     FRICTION of ball on ball and ball on wall; SLURRY, volume (m3) or None with LEVEL (m); FED (m3/s); DRY, RECORD,
-    START (s) of the dry run, its records and its averages; FLOW (s)."""
+    START (s) of the dry run, its records and its averages; FLOW (s); CALLS, options of each Allrun, in turn."""
     RANKS = 1
+    CALLS: tuple[tuple[str, ...], ...] = ((),)
     SLURRY = LEVEL = None
     FED = 0.0
     PAST = 1e-9
@@ -60,14 +61,16 @@ class MillRun:
         cls.case = folder / "case"
         (folder / "mine.yaml").write_text(cls.YAML)
         environment = {**os.environ, "MILLFOAM_NP": str(cls.RANKS)}
-        cls.output = ""
-        for command in ([NEW_MILL, folder / "mine.yaml", cls.case], [cls.case / "Allrun"]):
+        cls.outputs = []
+        for command in ([NEW_MILL, folder / "mine.yaml", cls.case],
+                        *([cls.case / "Allrun", *options] for options in cls.CALLS)):
             done = subprocess.run([str(word) for word in command], cwd=folder, env=environment, text=True,
                                   stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
-            cls.output += done.stdout
+            cls.outputs.append(done.stdout)
             if done.returncode:
                 raise AssertionError(f"{command[0].name} of {cls.__name__} ended with {done.returncode}:\n"
-                                     f"{cls.output[-3000:]}")
+                                     f"{done.stdout[-3000:]}")
+        cls.output = "".join(cls.outputs)
         cls.mesh = foam.read_mesh(cls.case)
         cls.steps = read_csv(cls.case / "postProcessing" / "flow" / "0" / "steps.csv")
 
@@ -186,8 +189,8 @@ class MillRun:
         np.testing.assert_allclose(share.sum(axis=(1, 2, 3)) * voxel, self.steps["slurry_m3"].mean(), rtol=0.02)
 
 
-class SliceOfGlass(MillRun, unittest.TestCase):
-    """0.6 m, named materials, anticlockwise, slurry by slurry.level."""
+class GlassMill(MillRun):
+    """0.6 m, named materials, anticlockwise, slurry by slurry.level. Again of mill_run_test makes this mill."""
     YAML = """
 title: sixty centimetres of glass
 geometry: {diameter: 0.6, length: 0.1, ends: periodic, lifters: {count: 12, height: 0.03, width: 0.03}}

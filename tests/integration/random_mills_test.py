@@ -25,7 +25,7 @@ from millfoam.files.mill import read_mill
 ROOT = Path(__file__).resolve().parents[2]
 TEMPLATE, REPORT = ROOT / "scripts" / "mill_case", ROOT / "scripts" / "report"
 MILLS = int(os.environ.get("MILLFOAM_RANDOM_MILLS", 8))
-PLANNED = 4  # every fourth mill is also planned, which takes longer than its other stages
+REPORTED, PLANNED = 2, 8  # every second mill is also reported, every eighth planned: these take longest
 AROUND = 48  # cells along the shell of a mill whose cells are counted
 CRASHES = ("Traceback", "terminate called", "Segmentation", "Assertion", "core dumped", "sigFpe", "stack smashing")
 HARD = {"density": 7800, "youngs_modulus": 2e11, "poisson_ratio": 0.3}
@@ -191,7 +191,7 @@ class MillTest(unittest.TestCase):
         return output
 
     def pass_stages(self, mill, rng, *changes):
-        """Takes a mill from its YAML to a report, with balls at random places instead of a dry run."""
+        """Takes a mill from its YAML to the flow's start, with balls at random places instead of a dry run."""
         (self.case / "mill.yaml").write_text(written(mill)[0])
         shutil.copytree(TEMPLATE, self.case, dirs_exist_ok=True, ignore=shutil.ignore_patterns("interFoam"))
         words = [word for change in changes for word in ("--set", change)]
@@ -203,7 +203,6 @@ class MillTest(unittest.TestCase):
         self.pass_stage("millMesh", "mill.json", "--case", ".")
         shutil.copytree(self.case / "0.orig", self.case / "0")
         self.pass_stage("slurryStart")
-        self.pass_stage(REPORT, ".")
 
     def write_dumps(self, rng):
         """Dumps and run.json of balls that move rigidly with the mill, in a place that no lifter comes to."""
@@ -237,7 +236,9 @@ class Valid(MillTest):
             with self.subTest(seed=seed):
                 self.setUp()
                 self.pass_stages(random_mill(rng), rng)
-                self.assertIn("random mill", (self.case / "report.html").read_text())
+                if seed % REPORTED == 1:  # of the first eight, those with plain ends are among these
+                    self.pass_stage(REPORT, ".")
+                    self.assertIn("random mill", (self.case / "report.html").read_text())
                 if seed % PLANNED == 0:
                     self.pass_plan()
 
@@ -267,6 +268,7 @@ class OneChange(MillTest):
         mill["averages"]["voxel_size"] = 0.04
         self.pass_stages(mill, rng, "geometry.lifters.height=0.0277", "slurry.density=1357",
                          "materials.ball.density=3141", "speed.fraction_of_critical=0.613")
+        self.pass_stage(REPORT, ".")
         omega = 0.613 * math.sqrt(9.81 / 0.3)
         resolved = read_json(self.case / "mill.json", "mill")
         self.assertEqual(resolved["derived"]["geometry"]["lifters"]["height_m"], 0.0277)

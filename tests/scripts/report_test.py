@@ -104,6 +104,9 @@ class Case(unittest.TestCase):
     def undrawn(self):
         self.enterContext(mock.patch("millfoam.report.page.encode", undrawn))
         self.enterContext(mock.patch("matplotlib.figure.Figure.draw_without_rendering"))
+        # They make ticks, which takes half of the rest
+        for name in ("set_clip_path", "set_tick_params", "grid"):
+            self.enterContext(mock.patch(f"matplotlib.axis.Axis.{name}"))
         self.enterContext(mock.patch("millfoam.report.sections.FRAMES", 2))
 
     def assert_whole(self, text):

@@ -146,12 +146,13 @@ class Displacement(Printed):
 
     def result(self, name, pressure=0.0):
         """An exact result of a box, with an error of the pressure over the largest one."""
-        case, kind = self.case, self.case.RUNS[name][0]
+        case, (kind, step) = self.case, self.case.RUNS[name]
         times = np.array([0.02, case.END])
         levels = np.array([case.expected_level(kind, time) for time in times])
         share = np.clip(levels[:, None] / case.LAYER - np.arange(case.LAYERS), 0, 1)[..., None].repeat(case.COLUMNS, 2)
         exact = case.bottom_pressure(times)
-        return case.Displacement(name, kind, times, share, 0.0, times, exact + pressure * exact.max())
+        return case.Displacement(name, kind, times, share, 0.0, times, exact + pressure * exact.max(),
+                                 step)
 
     def test_an_exact_result_holds_and_one_that_is_not_a_number_does_not(self):
         self.assertFalse(self.result("open").misses())

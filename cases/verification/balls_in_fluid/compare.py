@@ -23,16 +23,21 @@ PANELS = {"terminal velocity": ("time, s", "velocity, m/s"),
 
 def experiments(work, quick):
     """Experiments as functions of the folder of their runs."""
-    width = 0.01 if quick else 0.016  # m
-    bed = settled_bed(work, width, 0.02 if quick else 0.048)
-    found = [partial(terminal, law="DiFelice", upflow=0.0, ways=("direct", "iterated")),
-             partial(terminal, law="WenYu", upflow=0.1),
-             partial(pool, bed=bed), partial(upflow, bed=bed),
-             partial(fluidisation, bed=bed, rise=2.0 if quick else 4.0),
-             partial(settling, width=width, solidity=0.3)]
-    if not quick:
-        found += [partial(settling, width=width, solidity=solidity) for solidity in (0.05, 0.45)]
-    return [*found, partial(segregation, end=1.2 if quick else 3.0, compared=not quick)]
+    if quick:
+        bed = settled_bed(work, 0.01, 0.02)
+        return [partial(terminal, law="DiFelice", upflow=0.0, ways=("direct", "iterated"), end=0.3),
+                partial(terminal, law="WenYu", upflow=0.1, end=0.3),
+                partial(pool, bed=bed, end=0.25), partial(upflow, bed=bed, end=0.25),
+                partial(fluidisation, bed=bed, rise=1.4, begin=0.3),
+                partial(settling, width=0.01, solidity=0.3, top=0.112, end=0.3),
+                partial(segregation, width=0.0168, depth=0.08, end=1.1, compared=False)]
+    width = 0.016  # m
+    bed = settled_bed(work, width, 0.048)
+    return [partial(terminal, law="DiFelice", upflow=0.0, ways=("direct", "iterated")),
+            partial(terminal, law="WenYu", upflow=0.1),
+            partial(pool, bed=bed), partial(upflow, bed=bed), partial(fluidisation, bed=bed, rise=4.0),
+            *(partial(settling, width=width, solidity=solidity) for solidity in (0.3, 0.05, 0.45)),
+            partial(segregation, width=0.02, depth=0.1, end=3.0, compared=True)]
 
 
 def print_table(findings, out):
@@ -61,7 +66,7 @@ def plot(curves, out):
 
 
 def main():
-    options = case_options(__doc__, "smaller beds, fewer suspensions, no run that is only drawn")
+    options = case_options(__doc__, "smaller and shorter, one suspension, no run that is only drawn")
     here = Path(__file__).parent.resolve()
     work = fresh_runs(here)
     done = run_jobs(lambda experiment: experiment(work), experiments(work, options.quick), options.jobs)

@@ -44,11 +44,11 @@ class Curve:
     expected: Any = None
 
 
-def terminal(work, law, upflow, ways=("direct",)):
+def terminal(work, law, upflow, ways=("direct",), end=0.5):
     """One ball in a column that is one voxel, through which it falls again and again: still water, and water that
     rises. Its speed is U/e - w, with the slip w of the law's balance. In turn with the flow, it begins with nearly that
     speed: a dry ball does not stop to fall. The solidity, 1.1e-3, is that from which on the flow knows it."""
-    column = Column(0.008, 0.06, 15, law, end=0.5, voxels=1, feed=((0.0, upflow),), periodic=True)
+    column = Column(0.008, 0.06, 15, law, end=end, voxels=1, feed=((0.0, upflow),), periodic=True)
     ball = Balls(np.array([[0.004, 0.004, 0.03]]), np.array([DIAMETER]))
     solidity = ball.volume / (column.area * column.height)
     expected = upflow / (1 - solidity) - terminal_slip(law, solidity, DIAMETER)
@@ -60,7 +60,7 @@ def terminal(work, law, upflow, ways=("direct",)):
     curves.append(Curve("terminal velocity", name.replace("_", ", "), motion.time, motion.velocity[:, 0, 2], expected))
     if "iterated" in ways:
         begun = replace(ball, velocity=np.array([[0, 0, 0.8 * expected]]))
-        passes = run_iterated(work / f"{name}_iterated", replace(column, averages=0.4), begun, 6,
+        passes = run_iterated(work / f"{name}_iterated", replace(column, averages=end - 0.1), begun, 6,
                               first=replace(column, end=0.001))
         findings.append(Finding(title, "iterated", passes[-1][0].velocity[-1, 0, 2], expected, 1e-3, "m/s"))
     return findings, curves
@@ -85,13 +85,13 @@ def settled_bed(work, width, depth):
     return Bed(column, settled(work / "bed", column, scattered(column, 0.45, 1e-4, depth / 0.75, (DIAMETER,))))
 
 
-def pool(work, bed):
-    """A bed at rest in a pool presses on the floor with its buoyant weight."""
-    column = replace(bed.column, end=0.4, averages=0.2)
+def pool(work, bed, end=0.4):
+    """A bed at rest in a pool presses on the floor with its buoyant weight; found in the later half of the run."""
+    column = replace(bed.column, end=end, averages=end / 2)
     findings = []
     for name, motion in (("direct", run_direct(work / "pool", column, bed.balls)[0]),
                          ("iterated", run_iterated(work / "pool_iterated", column, bed.balls, 2)[-1][0])):
-        force = motion.floor[motion.time > 0.2].mean()
+        force = motion.floor[motion.time > end / 2].mean()
         findings.append(Finding("bed in a pool", f"{name}: force on the floor", force, bed.balls.buoyant_weight, 1e-3,
                                 "N"))
     return findings, []
@@ -114,16 +114,17 @@ def pressure_of_acceleration(fields, rate):
     return WATER * rate * fields.cell * (1 / (1 - fields.solidity)).sum(axis=1)
 
 
-def fluidisation(work, bed, rise):
-    """The superficial velocity rises from 0 to twice that of minimum fluidisation over so many seconds: the pressure
-    that the bed takes, and the velocity at which it is carried. Ergun's is that of the bed's solidity shortly before.
-    The lowest layer, where balls lie less densely, leaves the floor last: until then the floor carries the rest."""
+def fluidisation(work, bed, rise, begin=0.0):
+    """The superficial velocity rises from the share `begin` of minimum fluidisation's to twice that over so many
+    seconds: the pressure that the bed takes, and the velocity at which it is carried. Ergun's is that of the bed's
+    solidity shortly before. The lowest layer, where balls lie less densely, leaves the floor last: until then the floor
+    carries the rest."""
     least = minimum_fluidisation(0.62, DIAMETER)
     most = 2 * least
-    column = replace(bed.column, end=rise, feed=((0.0, 0.0), (rise, most)))
+    column = replace(bed.column, end=rise, feed=((0.0, begin * least), (rise, most)))
     motion, fields = run_direct(work / "fluidisation", column, bed.balls)
     feed = column.feed_at(fields.time)
-    drop = fields.drop - pressure_of_acceleration(fields, most / rise)
+    drop = fields.drop - pressure_of_acceleration(fields, (most - begin * least) / rise)
     packed = (feed > 0.4 * least) & (feed < 0.8 * least)
     before = np.flatnonzero(packed)[-1]
     expected = brentq(lambda u: lost_at_rest(fields, before, u)[0] - bed.carried, 0.1 * most, 2 * most)
@@ -142,28 +143,28 @@ def fluidisation(work, bed, rise):
     return findings, [Curve("fluidisation", "slurryFoam", feed, drop, law)]
 
 
-def upflow(work, bed):
+def upflow(work, bed, end=0.4):
     """A bed that stays, at half of the velocity of minimum fluidisation: the floor carries what the flow does not."""
     speed = 0.5 * minimum_fluidisation(0.6, DIAMETER)
-    column = replace(bed.column, end=0.4, feed=((0.0, speed),), averages=0.2)
+    column = replace(bed.column, end=end, feed=((0.0, speed),), averages=end / 2)
     findings = []
     for name, (motion, fields) in (("direct", run_direct(work / "upflow", column, bed.balls)),
                                    ("iterated", run_iterated(work / "upflow_iterated", column, bed.balls, 3)[-1])):
-        late = fields.time > 0.2
+        late = fields.time > end / 2
         lost = lost_by_law(fields)[late].mean()
         carried = bed.balls.buoyant_weight - lost * column.area
-        force = motion.floor[motion.time > 0.2].mean()
+        force = motion.floor[motion.time > end / 2].mean()
         findings += [Finding("upflow, bed at rest", f"{name}: loss of pressure", fields.drop[late].mean(), lost, 0.01,
                              "Pa"),
                      Finding("upflow, bed at rest", f"{name}: force on the floor", force, carried, 0.01, "N")]
     return findings, []
 
 
-def settling(work, width, solidity):
+def settling(work, width, solidity, top=0.16, end=0.5):
     """A suspension settles in a closed column: speed of its balls before the sediment reaches them, against e w of the
     law's balance, in the mean over the balls with the solidity of their cells."""
-    top = 0.16
-    column = Column(width, 0.2, round(0.2 / COARSE), "DiFelice", end=0.5, write_interval=0.01)
+    height = top + 0.04
+    column = Column(width, height, round(height / COARSE), "DiFelice", end=end, write_interval=0.01)
     balls = mixed(work / f"mixing_{solidity:g}", column, scattered(column, solidity, 0, top, (DIAMETER,)), top)
     motion, fields = run_direct(work / f"settling_{solidity:g}", column, balls)
 
@@ -189,17 +190,17 @@ def settling(work, width, solidity):
     return findings, [Curve("settling", f"solidity {solidity:g}", motion.time[shown], mean[shown], expected)]
 
 
-def segregation(work, end, compared):
+def segregation(work, width, depth, end, compared):
     """Two sizes with little friction, so that they can pass each other, under an upflow that carries both: the smaller
-    ones rise above the larger ones. Without the drag of their own sizes both have the same force per volume. compared:
-    whether a run without it is drawn, which has no limit."""
+    ones rise above the larger ones. Without the drag of their own sizes both have the same force per volume. depth: of
+    the balls before they fall, m; compared: whether a run without that drag is drawn, which has no limit."""
     small, large = DIAMETER, 1.5 * DIAMETER
     speed = 2.2 * minimum_fluidisation(0.6, large)
     findings, curves = [], []
     for own in (True, False) if compared else (True,):
-        column = Column(0.02, 0.161, 23, "ErgunWenYu", end, feed=((0.0, 0.0), (0.3, speed)), settle=0.3,
+        column = Column(width, 0.161, 23, "ErgunWenYu", end, feed=((0.0, 0.0), (0.3, speed)), settle=3 * depth,
                         polydispersity=own, friction=0.05)
-        balls = scattered(column, 0.18, 1e-4, 0.1, (small,) * 3 + (large,))
+        balls = scattered(column, 0.18, 1e-4, depth, (small,) * 3 + (large,))
         motion, _ = run_direct(work / f"segregation{'' if own else '_mean_size'}", column, balls)
         is_large = balls.diameter > small
         apart = motion.place[:, ~is_large, 2].mean(axis=1) - motion.place[:, is_large, 2].mean(axis=1)

@@ -46,7 +46,7 @@ MOTIONS = {
     "bed and mesh": (-0.1, 0.1),
 }
 MESHES = ("aligned", "wavy")
-QUICK = {"aligned": ("bed with the flow", "bed and mesh"), "wavy": ("at rest", "bed and mesh")}
+QUICK = {"aligned": ("bed with the flow",), "wavy": ("at rest", "bed and mesh")}
 
 
 @dataclass(frozen=True)
@@ -239,9 +239,9 @@ def outline(run, time, at):
 
 def plot(results, out):
     shown = {run.motion: run for run in results if run.mesh == "aligned"}  # the finest
-    figure, axes = plt.subplots(len(shown), 1, figsize=(11, 2.1 * len(shown)), constrained_layout=True)
+    figure, axes = plt.subplots(len(shown), 1, figsize=(11, 2.1 * len(shown)), squeeze=False, constrained_layout=True)
     angle = np.linspace(0, 2 * np.pi, 400)
-    for axis, (motion, run) in zip(axes, shown.items()):
+    for axis, (motion, run) in zip(axes.flat, shown.items()):
         for number in (0, RECORDS // 2, RECORDS):
             disc = results[run][number]
             height = WIDTH / len(disc.share)
@@ -258,7 +258,7 @@ def plot(results, out):
 
 
 def main():
-    options = case_options(__doc__, quick=f"{CELLS[0]} cells, two motions on each mesh")
+    options = case_options(__doc__, quick=f"{CELLS[0]} cells, three motions")
     here = Path(__file__).parent.resolve()
     work = fresh_runs(here)
     runs = [Run(motion, mesh, cells) for cells, mesh, motion in itertools.product(CELLS, MESHES, MOTIONS)]
