@@ -19,8 +19,8 @@ namespace millfoam::dem_driver {
 /// folder's
 /// @param out  gets a sentence about a restart file that is not used
 /// Throws meshing::KeyError for a plan that is shorter than the run, and std::runtime_error naming the file
-/// and what was expected for another run, for lost dumps, and for a complete run that is to be made longer
-/// without a complete restart file. So nothing of a complete run is removed.
+/// and what was expected for another run, for lost dumps, and without a usable restart file for a complete
+/// run that is to be made longer and for an interrupted one. So nothing of a run is removed.
 std::optional<long> resumable(const CaseFolder& folder, const DemPlan& plan, const std::string& deck,
                               std::ostream& out);
 
