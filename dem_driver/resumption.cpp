@@ -118,11 +118,11 @@ std::optional<long> resumable(const CaseFolder& folder, const DemPlan& plan, con
   }
   const auto step = last_usable_restart(folder, plan, out);
   if (!step)
-    throw std::runtime_error(folder.dem().string() +
-                             ": no complete restart file with the averages of its step, and with all dumps and "
-                             "rows of torque and energy before it, expected one from which the " +
-                             (complete ? "complete run is made longer" : "interrupted run is resumed") +
-                             otherwise);
+    throw std::runtime_error(
+        folder.dem().string() +
+        ": no complete restart file with the averages of its step, and with all dumps and "
+        "rows of torque and energy before it, expected one from which the " +
+        (complete ? "complete run is made longer" : "interrupted run is resumed") + otherwise);
   require_resumable(folder, plan, *step);
   return step;
 }
