@@ -100,14 +100,23 @@ bool whole_averages(const CaseFolder& folder, const DemPlan& plan, long step) {
   return true;
 }
 
+/// What the next call can do with a run that was stopped.
+std::string next_call(const CaseFolder& folder, const DemPlan& plan) {
+  const auto step = last_good_restart(folder, plan);
+  if (step && *step > plan.begin)
+    return "With more room, --resume continues from step " + std::to_string(*step);
+  const auto restarts = find_restarts(folder);
+  if (restarts.empty() || restarts.back().step <= plan.begin)
+    return "With more room, --resume starts from the beginning: there is no complete restart file";
+  return "It cannot be resumed: no restart file of it is usable. Without --resume it starts from the "
+         "beginning";
+}
+
 /// Throws RunError that says what an incomplete file means for the run.
 [[noreturn]] void stop(const CaseFolder& folder, const DemPlan& plan, const fs::path& file,
                        const std::string& complaint) {
-  const auto step = last_good_restart(folder, plan);
   throw RunError(file.string() + ": " + complaint + "; " + free_in_words(folder.root, plan.charge.balls()) +
-                 ".\nThe run was stopped. With more room, --resume " +
-                 (step ? "continues from step " + std::to_string(*step)
-                       : std::string("starts from the beginning: there is no complete restart file")));
+                 ".\nThe run was stopped. " + next_call(folder, plan));
 }
 
 }  // namespace

@@ -20,7 +20,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr char otherwise[] = ", so it cannot be resumed; without --resume it is replaced";
+constexpr char otherwise[] =
+    ", so it cannot be resumed; without --resume, or when its dem/ and dumps/ are removed, it starts from "
+    "the beginning";
 constexpr char deck_kept[] = ", so its deck is kept; a run without --deck-only and --resume replaces it";
 
 /// What identifies a run of any ranks and length: its deck without the lines that depend on these.

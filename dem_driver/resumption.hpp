@@ -20,7 +20,8 @@ namespace millfoam::dem_driver {
 /// @param out  gets a sentence about a restart file that is not used
 /// Throws meshing::KeyError for a plan that is shorter than the run, and std::runtime_error naming the file
 /// and what was expected for another run, for lost dumps, and without a usable restart file for a complete
-/// run that is to be made longer and for an interrupted one. So nothing of a run is removed.
+/// run that is to be made longer and for an interrupted one that has restart files. So only a run that was
+/// killed before its first restart file is removed.
 std::optional<long> resumable(const CaseFolder& folder, const DemPlan& plan, const std::string& deck,
                               std::ostream& out);
 

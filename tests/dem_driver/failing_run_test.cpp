@@ -111,6 +111,12 @@ TEST_F(FailingRun, ADumpThatHadNoRoomStopsTheRunAtOnce) {
       << message;
 }
 
+TEST_F(FailingRun, ACutFirstRestartFileCannotBeResumedFrom) {
+  const std::string message = complaint(turning + ": > restart.100\necho 'millFoam restart 100'\nsleep 60");
+  EXPECT_NE(message.find("It cannot be resumed: no restart file of it is usable"), std::string::npos)
+      << message;
+}
+
 TEST_F(FailingRun, TheLastGoodRestartFileIsKeptWhenTheNextHadNoRoom) {
   tests::write_restart(temporary_.path() / "good", {250});
   const std::string good = "cp ../../good restart.100\necho 'millFoam restart 100'\n";

@@ -65,7 +65,8 @@ class Resumption : public ::testing::Test {
   void expect_refused(const DemPlan& plan, const std::string& words, const std::string& deck_of_plan = deck) {
     const std::string message = message_of([&] { step(plan, deck_of_plan); });
     EXPECT_NE(message.find(words), std::string::npos) << message;
-    EXPECT_NE(message.find("cannot be resumed; without --resume it is replaced"), std::string::npos)
+    EXPECT_NE(message.find("cannot be resumed; without --resume, or when its dem/ and dumps/ are removed"),
+              std::string::npos)
         << message;
   }
 
@@ -91,6 +92,10 @@ TEST_F(Resumption, AnInterruptedRunWithoutAWholeRestartFileIsNotReplaced) {
   write(restart(plan_.restart_steps), "cut");
   expect_refused(plan_, "expected one from which the interrupted run is resumed");
   EXPECT_NE(said_.str().find("is not complete and is not used"), std::string::npos);
+}
+
+TEST_F(Resumption, AnInterruptedRunBeforeItsFirstRestartFileStartsAgain) {
+  run_to(plan_.restart_steps);
   std::filesystem::remove(restart(plan_.restart_steps));
   EXPECT_EQ(step(plan_), std::nullopt);
 }

@@ -295,9 +295,13 @@ class Passes(FluidCase):
         for path in (case / "pass_2" / "dem").glob("restart.*"):
             path.unlink()
         self.assertIn("nothing to do", run(case, "millDem", "mill.yaml", *options, "--resume", "--or-anew"))
-        # Killed before its first restart file, it begins again with the other's
+        # Without a usable restart file of its own it begins again with the other's, if asked
         (case / "pass_2" / "dumps" / "run.json").unlink()
-        run(case, "millDem", "mill.yaml", *options, "--resume", "--or-anew")
+        (case / "pass_2" / "dem" / f"restart.{steps[-1]}").write_bytes(b"cut")
+        with self.assertRaisesRegex(RunError, "expected one from which the interrupted run is resumed"):
+            run(case, "millDem", "mill.yaml", *options, "--resume")
+        log = run(case, "millDem", "mill.yaml", *options, "--resume", "--or-anew")
+        self.assertIn(". The dry run starts from the beginning", log)
         self.assertEqual(list(read_dumps(case / "pass_2")), list(steps))
 
 

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A shortened run of the 12 cm mill, every stage real: the result must be a mill; and what Allrun makes again.
+"""A shortened run of the 12 cm mill, every stage but its pictures real: the result must be a mill; and what Allrun
+makes again.
 
 The mill itself with coarser cells, less time, and balls of 4 mm for those of 2 and 3 mm: slurryFoam with the law's drag
 and with none, and interFoam with particleDrag."""

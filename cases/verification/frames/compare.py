@@ -55,7 +55,7 @@ POOL, POOL_BED, FULL_BED = "pool", "pool with a bed", "full with a bed"
 CELLS = (0.006, 0.004, 0.003)
 # Pools have no cells of 3 mm: these begin to hold the film that the wall drags up out of the pool
 WHOLE = Extent((Kind(POOL, CELLS[:2]), Kind(POOL_BED, CELLS[:2]), Kind(FULL_BED, CELLS)), quarters=6, late=3, step=0.25)
-QUICK = Extent((Kind(POOL, CELLS[:1]), Kind(FULL_BED, CELLS[:2])), quarters=2, late=1, step=0.33)
+QUICK = Extent((Kind(POOL, CELLS[:1]), Kind(FULL_BED, CELLS[:2])), quarters=3, late=1, step=0.33)
 BED_SPEED = 0.5  # over the drum's
 # Largest difference of the surface's height, cells
 HEIGHT = {POOL: 0.5, POOL_BED: 1.0}

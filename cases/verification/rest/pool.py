@@ -37,7 +37,7 @@ MESHES = {
 # Turning, rad/s: four fifths of the critical speed of 30 cm, half of that of 12 cm. Only round walls slide past a pool.
 OMEGA = {"ogrid": -6.4, "drum": -6.4}
 QUICK_END, LONG_END = 0.15, 1.0  # s
-QUICK_RECORDS, LONG_RECORDS = 15, 40
+QUICK_RECORDS, LONG_RECORDS = 16, 40  # multiples of four: the table shows quarters of a run
 # Bed, in radii: sides, lower and upper end from the pool's level, soft edge (16.5 mm in a mill of 12 cm: as soft as
 # averages on voxels of 11 mm). It touches no wall, so that its volume in the mesh is known.
 BED_SIDES, BED_ENDS, BED_EDGE = (-0.5, 0.4), (-0.4, 0.35), 0.275
