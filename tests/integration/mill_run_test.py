@@ -388,6 +388,33 @@ class Again(mills_test.GlassMill, unittest.TestCase):
         self.assertEqual(read_json(self.case / "walls" / "walls.json", "walls")["source"], "cad")
         self.assertEqual(self.allrun("--until", "mesh"), ([], ["walls", "charge", "average", "mesh"]))
 
+    def test_walls_from_cad_stay_from_the_first_allrun_on(self):
+        other, drawn = self.case.with_name("other"), self.case.with_name("drawn")
+        run(self.case, ROOT / "scripts" / "new_mill", "mill.yaml", other)
+        low = "geometry.lifters.height=0.005"
+        run(other, "millMesh", "mill.yaml", "--case", drawn, "--walls", "--set", low)
+        parts = [f"{path.stem}={path}" for path in sorted((drawn / "walls").glob("*.stl"))]
+        surface = ("millMesh", "surface", *parts, "--case", ".", "--ends", "periodic")
+        lifters = other / "walls" / "lifters.stl"
+        run(other, "millMesh", "mill.yaml", "--case", ".", "--walls")
+        of_mill = lifters.read_bytes()
+        run(other, *surface)
+        of_cad = lifters.read_bytes()
+        self.assertNotEqual(of_cad, of_mill)
+        self.assertIn("Keeping walls: they are from CAD", run(other, "./Allrun", "--until", "walls"))
+        self.assertEqual(lifters.read_bytes(), of_cad)
+        # The geometry changes, and nobody has said that these walls are still its own
+        changed = ("./Allrun", "--until", "walls", "--set", low)
+        for _ in range(2):
+            with self.assertRaisesRegex(RunError, "walls/walls.json: these walls from CAD were there before"):
+                run(other, *changed)
+        run(other, *surface)
+        self.assertIn("Keeping walls: they are from CAD", run(other, *changed))
+        self.assertEqual(lifters.read_bytes(), of_cad)
+        run(other, "millMesh", "mill.yaml", "--case", ".", "--walls")
+        self.assertIn("Running walls", run(other, "./Allrun", "--until", "walls"))
+        self.assertEqual(lifters.read_bytes(), of_mill)
+
     def test_statistics_of_the_contacts_make_the_charge_again(self):
         made, _ = self.allrun("--until", "charge", "--set", "dem.contact_statistics=true")
         self.assertEqual(made, ["charge"])
