@@ -60,14 +60,16 @@ Json solids_of(const FlowSetup& setup, double time) {
   if (!setup.solids) return nullptr;
   const Solids& solids = *setup.solids;
   Json result{{"source", solids.source}, {"file", text(solids.file)}};
-  if (solids.file.empty()) return result;
+  if (solids.file.empty() && solids.program.empty()) return result;
   result["begin_s"] = solids.begin;
   result["end_s"] = solids.end;
-  result["windows"] = solids.windows;
-  result["whole_run"] = solids.whole_run;
-  result["in_time"] = solids.in_time;
-  result["out_of_range"] = solids.out_of_range;
-  result.update(beyond_record(solids, time));
+  if (!solids.file.empty()) {
+    result["windows"] = solids.windows;
+    result["whole_run"] = solids.whole_run;
+    result["in_time"] = solids.in_time;
+    result["out_of_range"] = solids.out_of_range;
+    result.update(beyond_record(solids, time));
+  }
   result["angular_velocity_rad_s"] = number(solids.angular_velocity);
   result["program"] = text(solids.program);
   result["mill"] = Json::object();

@@ -18,18 +18,18 @@ namespace millfoam::record {
 
 /// Where the balls of a flow came from and what was done beyond the recorded time.
 struct Solids {
-  std::string source;                      ///< in words
-  std::string file;                        ///< solids.h5 as a path; empty: uniform blocks
-  double begin = 0;                        ///< recorded DEM time, s
-  double end = 0;                          ///< s
-  long long windows = 0;                   ///< number of windows
-  bool whole_run = false;                  ///< one window, which holds all the time
-  std::string out_of_range;                ///< error, hold or repeat
-  std::string in_time;                     ///< window or smooth
+  std::string source;        ///< in words
+  std::string file;          ///< solids.h5 as a path; empty: uniform blocks, or balls of `program`
+  double begin = 0;          ///< recorded DEM time, s
+  double end = 0;            ///< s
+  long long windows = 0;     ///< number of windows
+  bool whole_run = false;    ///< one window, which holds all the time
+  std::string out_of_range;  ///< error, hold or repeat
+  std::string in_time;       ///< window or smooth
   std::optional<double> angular_velocity;  ///< of the mill in the dry run, rad/s
-  std::string program;                     ///< that wrote the file; empty: not known
-  std::string mill_charge;                 ///< fingerprint of the charge of the file's mill; empty: not known
-  std::string mill_averages;               ///< of that mill and its averages; empty: not known
+  std::string program;  ///< that wrote the file, or that moves the balls at the same time; empty: none known
+  std::string mill_charge;    ///< fingerprint of the charge of the file's mill; empty: not known
+  std::string mill_averages;  ///< of that mill and its averages; empty: not known
 };
 
 /// The drag that the balls give.

@@ -45,6 +45,14 @@ class DirectRestart(SlurryTest):
         np.testing.assert_allclose(after[:, 0], same[:, 0], rtol=1e-14)
         np.testing.assert_array_equal(after[:, 1:], same[:, 1:])
         self.assertGreater(np.abs(after[0, 1:]).max(), 100)
+        for name in ("toldPressure", "toldExchange", "uniform/toldForces"):
+            with self.subTest(name=name):
+                half = self.copy_of(resumed)
+                for time, folder in foam.times(half.path):
+                    if time > STOP + 1e-9:
+                        shutil.rmtree(folder)
+                (half.folder(STOP) / name).unlink()
+                self.assertRaisesRegex(AssertionError, f'{name}": no such file', told, half)
 
 
 if __name__ == "__main__":

@@ -77,6 +77,13 @@ class Restart(SlurryTest):
         case.bed(PILE)
         self.assert_restarts(case)
 
+    def test_on_an_upright_mesh_that_begins_to_turn(self):
+        # Its speed is 0 at first; what it is then does not say that it rests
+        case = self.slurry_case(end_time=self.last, motion=rotating_mesh("table ((0 0) (1 300))"))
+        case.write("constant/g", "dimensions [0 1 -2 0 0 0 0]; value (0 0 -9.81);")
+        self.assert_restarts(case)
+        self.assertIn("stepAcceleration", case.written(self.last))
+
     def test_on_a_turning_mesh_with_the_plate_of_a_grate(self):
         case = self.slurry_case(end_time=self.last, motion=rotating_mesh(3))
         case.write("system/topoSetDict", """

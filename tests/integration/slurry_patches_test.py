@@ -160,6 +160,25 @@ class Feed(ColumnTest):
         np.testing.assert_allclose(case.field("U", self.end)[:, 1], self.speed, rtol=1e-6)
 
 
+class Reversal(ColumnTest):
+    """A full column rises a little and sinks again: at its open top air comes in from the first step on that sinks."""
+
+    speed, step, up, down = 0.05, 0.002, 3, 4
+
+    def test_lets_air_in_at_once(self):
+        case = self.column(level=2 * HEIGHT, across=1, delta_t=self.step, end_time=self.step * (self.up + self.down))
+        case.open_top()
+        turn = self.step * (self.up + 0.5)
+        case.at_patch("bottom", U="type uniformFixedValue; uniformValue table "
+                                  f"((0 (0 {self.speed} 0)) ({turn - 1e-6} (0 {self.speed} 0))"
+                                  f" ({turn} (0 -{self.speed} 0)) (1 (0 -{self.speed} 0)));",
+                      alpha="type inletOutlet; inletValue uniform 1; value uniform 1;")
+        self.assert_runs(case, "slurryFoam")
+        found = case.steps()["slurry_m3"]
+        below = np.clip(np.arange(1, len(found) + 1) - self.up, 0, None)
+        np.testing.assert_allclose(found, AREA * (HEIGHT - self.speed * self.step * below), rtol=1e-9)
+
+
 class Grate(ColumnTest):
     """Cells of a grate resist by Darcy and Forchheimer, faces of a plate by its loss; the slurry is pushed through."""
 

@@ -142,6 +142,12 @@ class BeyondTheRecord(CellsTest):
     def test_some_hundredths_of_a_turn_less_are_refused(self):
         self.assert_refused(self.outlasting("repeat", window=2 * np.pi / 15 * 0.995), "3.98 turns")
 
+    def test_turns_of_a_speed_that_changes_are_not_repeated(self):
+        case = self.outlasting("repeat", window=2 * np.pi / 15)
+        case.write("constant/dynamicMeshDict", rotating_mesh("table ((0 0) (1 -20))"))
+        self.assert_refused(case, "fvOptions", "outOfRange is repeat", "omega that is a function of time",
+                            "expected a number for omega")
+
     def test_a_mesh_at_rest_holds_and_repeats(self):
         for motion in ("", "at rest"):
             for entries in ("hold", "repeat"):

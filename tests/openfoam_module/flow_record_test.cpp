@@ -190,6 +190,23 @@ TEST_F(Flow, TellsForHowLongTheLastWindowWasHeld) {
   EXPECT_NEAR(summary()["solids"]["held_s"], 0.3, 1e-12);
 }
 
+TEST_F(Flow, KnowsBallsThatMoveAtTheSameTimeAndAUniformBlock) {
+  setup.solids->file.clear();
+  setup.solids->program = "millDem 1.2.3";
+  FlowRecord balls(folder.path, "0", setup);
+  balls.write(true);
+  const auto found = summary()["solids"];
+  EXPECT_TRUE(found["file"].is_null());
+  EXPECT_EQ(found["program"], "millDem 1.2.3");
+  EXPECT_EQ(found["begin_s"], 1);
+  EXPECT_EQ(found["mill"]["averages"], "fedcba9876543210");
+  EXPECT_FALSE(found.contains("windows"));
+  setup.solids->program.clear();
+  FlowRecord block(folder.path, "0", setup);
+  block.write(true);
+  EXPECT_FALSE(summary()["solids"].contains("program"));
+}
+
 TEST_F(Flow, WithoutBallsSaysSo) {
   setup.solids.reset();
   setup.drag.reset();

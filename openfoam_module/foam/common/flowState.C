@@ -15,12 +15,18 @@ namespace Foam
 namespace
 {
 
+//- Whether a file of the state is a dictionary of numbers, in uniform
+bool isNumbers(const word& name)
+{
+    return name == "slurryFlow" || name == "toldForces";
+}
+
+
 //- A file of the state at the present time
 IOobject stateIO(const word& name, const fvMesh& mesh)
 {
-    const bool isNumbers = name == "slurryFlow";
     return IOobject(
-        name, mesh.time().timeName(), isNumbers ? "uniform" : "", mesh,
+        name, mesh.time().timeName(), isNumbers(name) ? "uniform" : "", mesh,
         IOobject::READ_IF_PRESENT, IOobject::NO_WRITE, false);
 }
 
@@ -28,8 +34,8 @@ IOobject stateIO(const word& name, const fvMesh& mesh)
 bool isThere(const word& name, const fvMesh& mesh)
 {
     IOobject io(stateIO(name, mesh));
-    return name == "slurryFlow" ? io.typeHeaderOk<IOdictionary>(false)
-                                : io.typeHeaderOk<volScalarField>(false);
+    return isNumbers(name) ? io.typeHeaderOk<IOdictionary>(false)
+                           : io.typeHeaderOk<volScalarField>(false);
 }
 
 } // End anonymous namespace

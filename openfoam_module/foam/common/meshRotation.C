@@ -73,6 +73,14 @@ Foam::scalar Foam::meshRotation(const Time& time)
 }
 
 
+bool Foam::meshTurns(const Time& time)
+{
+    const std::optional<rotation> found(rotationOf(motionOf(time)));
+    return found && (!isA<Function1Types::Constant<scalar>>(found->omega()) ||
+                     found->axis * found->omega->value(time.value()) != 0);
+}
+
+
 std::optional<Foam::scalar> Foam::constantMeshRotation(const Time& time)
 {
     const std::optional<rotation> found(rotationOf(motionOf(time)));

@@ -13,11 +13,11 @@ const FieldType& Foam::slurryFields::find(const word& name) const
 {
     if (!mesh_.foundObject<FieldType>(name))
     {
-        FatalErrorInFunction
+        FatalIOErrorInFunction(dict_)
             << "the flow has no " << FieldType::typeName << " '" << name
             << "', it has " << flatOutput(mesh_.sortedNames<FieldType>())
             << "; give the right name by the entries phase, U, p or p_rgh"
-            << exit(FatalError);
+            << " of this function object" << exit(FatalIOError);
     }
     return mesh_.lookupObject<FieldType>(name);
 }
@@ -27,6 +27,7 @@ const FieldType& Foam::slurryFields::find(const word& name) const
 
 Foam::slurryFields::slurryFields(const fvMesh& mesh, const dictionary& dict)
 : mesh_(mesh),
+  dict_(dict),
   phase_(dict.lookupOrDefault<word>("phase", "slurry")),
   U_(dict.lookupOrDefault<word>("U", "U")),
   p_(dict.lookupOrDefault<word>("p", "p")),

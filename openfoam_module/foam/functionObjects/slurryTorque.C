@@ -6,6 +6,7 @@
 #include "slurryTorque.H"
 #include "gravityMeshObject.H"
 #include "optionalDictionary.H"
+#include "restingWallVelocityFvPatchVectorField.H"
 #include "wallFriction.H"
 #include "wallPolyPatch.H"
 
@@ -37,20 +38,26 @@ wallsOf(const polyBoundaryMesh& patches, const dictionary& dict)
 }
 
 
-//- Which of these patches the entry resting names
+//- Which patches rest: those of walls that the entry resting names, and all at
+//  which the velocity is restingWallVelocity
 static List<bool> restingOf(
-    const polyBoundaryMesh& patches, const labelList& walls,
-    const dictionary& dict)
+    const volVectorField& U, const labelList& walls, const dictionary& dict)
 {
-    List<bool> result(walls.size(), false);
+    const polyBoundaryMesh& patches = U.mesh().boundaryMesh();
+    List<bool> result(patches.size());
+    forAll(result, patchi)
+    {
+        result[patchi] = isA<restingWallVelocityFvPatchVectorField>(
+            U.boundaryField()[patchi]);
+    }
     for (const wordRe& name :
          dict.lookupOrDefault<wordRes>("resting", wordRes()))
     {
         bool isWall = false;
-        forAll(walls, i)
+        for (const label patchi : walls)
         {
-            const bool named = name.match(patches[walls[i]].name());
-            result[i] = result[i] || named;
+            const bool named = name.match(patches[patchi].name());
+            result[patchi] = result[patchi] || named;
             isWall = isWall || named;
         }
         if (!isWall)
@@ -59,6 +66,27 @@ static List<bool> restingOf(
                 << "resting has " << name
                 << ", which is none of the walls; expected patches of walls"
                 << exit(FatalIOError);
+        }
+    }
+    return result;
+}
+
+
+//- If walls are at rest, those that are neither at rest nor among these walls
+static labelList othersOf(
+    const polyBoundaryMesh& patches, const labelList& walls,
+    const List<bool>& resting)
+{
+    labelList result;
+    if (resting.found(true))
+    {
+        for (const label patchi :
+             patches.findPatchIDs<wallPolyPatch>().sortedToc())
+        {
+            if (!resting[patchi] && !walls.found(patchi))
+            {
+                result.append(patchi);
+            }
         }
     }
     return result;
@@ -104,7 +132,8 @@ Foam::slurryTorque::slurryTorque(
     const slurryFields& fields, const dictionary& dict)
 : fields_(fields),
   walls_(wallsOf(fields.mesh().boundaryMesh(), dict)),
-  resting_(restingOf(fields.mesh().boundaryMesh(), walls_, dict)),
+  resting_(restingOf(fields.U(), walls_, dict)),
+  others_(othersOf(fields.mesh().boundaryMesh(), walls_, resting_)),
   speed_(millSpeed(fields.mesh(), dict)),
   balls_(ballsOf(fields.mesh(), resting_.found(true)))
 {
@@ -126,20 +155,25 @@ Foam::wordList Foam::slurryTorque::names() const
 
 Foam::scalar Foam::slurryTorque::speedOf(const label patchi) const
 {
-    const label wall = walls_.find(patchi);
-    return wall >= 0 && resting_[wall] ? 0 : speed_;
+    return resting_[patchi] ? 0 : speed_;
 }
 
 
 Foam::scalarField Foam::slurryTorque::ofWalls() const
 {
-    scalarField result(walls_.size(), Zero);
-    forAll(walls_, i)
+    return of(walls_);
+}
+
+
+Foam::scalarField Foam::slurryTorque::of(const labelList& patches) const
+{
+    scalarField result(patches.size(), Zero);
+    forAll(patches, i)
     {
-        const fvPatch& patch = fields_.mesh().boundary()[walls_[i]];
-        const scalarField& p = fields_.p().boundaryField()[walls_[i]];
+        const fvPatch& patch = fields_.mesh().boundary()[patches[i]];
+        const scalarField& p = fields_.p().boundaryField()[patches[i]];
         const vectorField force(
-            wallFriction(fields_, walls_[i], speedOf(walls_[i])) -
+            wallFriction(fields_, patches[i], speedOf(patches[i])) -
             p * patch.Sf());
         result[i] = returnReduce(moment(patch.Cf(), force), sumOp<scalar>());
     }
@@ -165,7 +199,7 @@ Foam::scalarField Foam::slurryTorque::powers(const scalarField& torques) const
     scalarField result(speed_ * torques);
     forAll(result, i)
     {
-        if (resting_[i])
+        if (resting_[walls_[i]])
         {
             result[i] = 0;
         }
@@ -177,7 +211,9 @@ Foam::scalarField Foam::slurryTorque::powers(const scalarField& torques) const
 Foam::scalar
 Foam::slurryTorque::power(const scalar all, const scalarField& torques) const
 {
-    return resting_.found(true) ? sum(powers(torques)) : speed_ * all;
+    return resting_.found(true)
+               ? sum(powers(torques)) + speed_ * sum(of(others_))
+               : speed_ * all;
 }
 
 

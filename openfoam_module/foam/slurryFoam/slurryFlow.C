@@ -185,6 +185,12 @@ Foam::slurryFlow::slurryFlow(
     requireState(
         {"phi", "forceAcceleration", "fluxDetail", "massMoved", "slurryFlow"},
         mesh);
+    // A flow whose balls did not feel it has told them nothing
+    if (told_.valid() && state_.lookupOrDefault("told", false))
+    {
+        requireState({"toldPressure", "toldExchange", "toldForces"}, mesh);
+    }
+    state_.set("told", told_.valid());
     contractionFlux_.setOriented();
     fluxDetail_.setOriented();
     massMoved_.setOriented();

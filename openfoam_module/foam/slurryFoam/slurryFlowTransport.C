@@ -52,6 +52,8 @@ void Foam::slurryFlow::carrySlurry(const vectorField& relative)
         (mesh_.moving() ? mesh_.V0().field() : mesh_.V().field()));
     const scalarField last(voidage_.primitiveField() * mesh_.V());
     const label steps = surfaceSteps(min(first, last));
+    // A patch where the flow has turned lets in what is beyond it
+    alpha_.correctBoundaryConditions();
     volScalarField voidage("voidage", voidage_);
     surfaceScalarField carried("carried", 0 * slurryFlux_);
     label step = 0;

@@ -35,7 +35,7 @@ Foam::turningDerivative::turningDerivative(
 {
     const bool upright =
         mag(gravity.x()) + mag(gravity.y()) <= SMALL * mag(gravity.z());
-    if (upright && meshRotation(U.time()) != 0)
+    if (upright && meshTurns(U.time()))
     {
         requireAxisThroughOrigin(U.time());
         requireState({"stepAcceleration"}, U.mesh());

@@ -42,12 +42,21 @@ bool lies(const fvMesh& mesh)
 }
 
 
-//- What the windows move with, in words, and at which speed, rad/s
+//- What the windows move with, in words, and at which speed, rad/s; none where
+//  it is a function of time
 struct carrier
 {
     string words;
-    scalar omega;
+    std::optional<scalar> omega;
 };
+
+
+//- Speed of a mesh that moves, rad/s, 0 of one that does not turn; none where it
+//  is a function of time
+std::optional<scalar> speedOf(const fvMesh& mesh)
+{
+    return meshTurns(mesh.time()) ? constantMeshRotation(mesh.time()) : 0;
+}
 
 
 //- What the solids move with; none where they keep their place, or where a
@@ -60,7 +69,7 @@ carrierOf(const millfoam::averaging::Grid& grid, const fvMesh& mesh)
         return moves(*cells) ? std::optional<carrier>(
                                    {"the cells of a mesh that moves (" +
                                         cells->motion + ")",
-                                    meshRotation(mesh.time())})
+                                    speedOf(mesh)})
                              : std::nullopt;
     }
     const std::optional<double> omega = turning(grid);
@@ -160,15 +169,25 @@ void Foam::requireChargeInPlace(
             << exit(FatalIOError);
     }
 
+    if (!with->omega)
+    {
+        FatalIOErrorInFunction(dict)
+            << "outOfRange is repeat but " << file << " holds solids on "
+            << with->words.c_str() << " with an omega that is a function of"
+            << " time: the charge would jump at each repetition; expected a"
+            << " number for omega of constant/dynamicMeshDict, or outOfRange"
+            << " error, or solids on a box" << exit(FatalIOError);
+    }
+    const scalar omega = *with->omega;
     const scalar turns =
-        mag(with->omega) * clock.duration() / constant::mathematical::twoPi;
-    const scalar whole = with->omega != 0 ? max(1.0, std::round(turns)) : 0;
+        mag(omega) * clock.duration() / constant::mathematical::twoPi;
+    const scalar whole = omega != 0 ? max(1.0, std::round(turns)) : 0;
     if (mag(turns - whole) > 1e-3)
     {
         FatalIOErrorInFunction(dict)
             << "outOfRange is repeat but " << file << " holds solids on "
             << with->words.c_str() << ", and its " << clock.duration()
-            << " s are " << turns << " turns of " << with->omega
+            << " s are " << turns << " turns of " << omega
             << " rad/s: the charge would jump at each repetition; expected a"
             << " whole number of turns (to 0.001), or error, or solids on a box"
             << exit(FatalIOError);
