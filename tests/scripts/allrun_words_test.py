@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Words of an Allrun that need no tool: --help of mills, --list and --read of studies. Nothing is set up for them."""
+"""Words of an Allrun that need no tool: --help of mills, --list and --read of studies. Nothing is set up for them. And
+the number of processes of scripts/env."""
 import os
 import shutil
 import subprocess
@@ -87,6 +88,35 @@ class Allrun(unittest.TestCase):
         self.assertEqual(done.returncode, 1)
         self.assertIn("no run is complete", done.stdout + done.stderr)
         self.assert_not_set_up()
+
+
+class Processes(unittest.TestCase):
+    """MILLFOAM_NP of scripts/env on a machine with these programs lscpu and nproc."""
+
+    def found(self, lscpu, threads, asked=""):
+        """Words of MILLFOAM_NP where lscpu prints these lines (None: it fails) and nproc this number of threads."""
+        folder = Path(self.enterContext(tempfile.TemporaryDirectory()))
+        text = "exit 1" if lscpu is None else f"printf '%s\\n' '# Core,Socket' {lscpu}"
+        for name, command in (("lscpu", text), ("nproc", f"echo {threads}")):
+            (folder / name).write_text(f"#!/bin/sh\n{command}\n")
+            (folder / name).chmod(0o755)
+        environment = {**os.environ, "PATH": f"{folder}:{os.environ['PATH']}", "MILLFOAM_NP": asked}
+        done = subprocess.run(["bash", "-c", f'set -eu -o pipefail; . {ROOT}/scripts/env; echo "$MILLFOAM_NP"'],
+                              capture_output=True, text=True, check=True, env=environment)
+        self.assertEqual(done.stderr, "")
+        return done.stdout.strip()
+
+    def test_are_two_or_one_on_a_single_core_whatever_its_threads(self):
+        for lscpu, threads, expected in (("0,0 0,0", 2, "1"), ("0,0 0,0 1,0 1,0", 4, "2"), ("0,0 1,0", 2, "2"),
+                                         ("0,0 0,1", 2, "2"), ("0,0 1,0 2,0 3,0", 4, "2"), ("0,0 1,0", 1, "1")):
+            self.assertEqual(self.found(lscpu, threads), expected, lscpu)
+
+    def test_are_those_of_threads_where_cores_are_not_known(self):
+        for lscpu in (None, "", ", ,", "-,- -,-"):
+            self.assertEqual((self.found(lscpu, 1), self.found(lscpu, 4)), ("1", "2"), lscpu)
+
+    def test_are_what_was_asked_for(self):
+        self.assertEqual(self.found("0,0 0,0", 2, asked="3"), "3")
 
 
 if __name__ == "__main__":

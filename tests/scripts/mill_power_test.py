@@ -24,16 +24,16 @@ def series(of_turns, before, step):
     return times, np.where(times <= BEGIN + 1e-9, before, of_turns[turn])
 
 
-def case(kind):
+def case(kind, has_balls=True):
     """What the powers read of a case of five turns whose first two are averaged by nothing; kind: of the fluid on the
-    balls, None for dry ones."""
+    balls, None for dry ones; has_balls: whether the flow has them."""
     times, balls = series(BALLS, 9.0, 0.01)
     flow_times, walls = series(WALLS, 9.0, 0.004)
     back = series(BACK, 9.0, 0.01)[1]
     found = SimpleNamespace(
         results={"fluid": {"kind": kind} if kind else None, "power_from_s": 0.7},
         result={"power_W": 3.0, "power_error_W": 0.04, "power_from_s": 0.7, "steady_from_s": 0.9}.get,
-        flow=SimpleNamespace(time0=TIME0), begin=BEGIN, last=LAST, turn=TURN,
+        flow=SimpleNamespace(time0=TIME0), has_balls=has_balls, begin=BEGIN, last=LAST, turn=TURN,
         energy={"time_s": TIME0 + times, "power_W": balls},
         fluid_on_balls={"time_s": TIME0 + times, "power_W": -back} if kind else None,
         balance={"Time": flow_times, "power": 0 * walls + 1.5, "power_shell": 0.25 * walls,
@@ -91,6 +91,24 @@ class Powers(unittest.TestCase):
         self.assertAlmostEqual(mill_power.drive_power(dry).value, 4.5, places=9)
         self.assertAlmostEqual(mill_power.drive_power(dry).error, 0.04, places=9)
         self.assertAlmostEqual(mill_power.slurry_power(dry).value, 1.5, places=9)
+
+    def test_of_a_flow_without_balls_are_the_slurrys_alone(self):
+        for kind in (None, "buoyancy"):
+            fluid_only = case(kind, has_balls=False)
+            # Turns of 1.4, 1.5 and 1.7 W
+            fluid_only.balance["power"] = series(np.array([1.4, 1.5, 1.7]), 9.0, 0.004)[1]
+            drive = mill_power.drive_power(fluid_only)
+            self.assertEqual(drive, mill_power.slurry_power(fluid_only))
+            self.assertAlmostEqual(drive.value, 4.6 / 3, places=9)
+            self.assertAlmostEqual(drive.error, np.std([1.4, 1.5, 1.7], ddof=1) / np.sqrt(3), places=9)
+            fluid_only.begin = 2.5
+            self.assertTrue(np.isnan(mill_power.drive_power(fluid_only).value))
+
+    def test_of_balls_in_a_pool_at_rest_the_drives_is_not_known(self):
+        pool = case("buoyancy")
+        self.assertTrue(np.isnan(mill_power.drive_power(pool).value))
+        self.assertEqual(mill_power.charge_power(pool).value, 3.0)
+        self.assertAlmostEqual(mill_power.slurry_power(pool).value, 1.5, places=9)
 
     def test_of_results_have_the_freedom_of_the_batches_of_milldem(self):
         source = Path(__file__).parents[2] / "dem_driver" / "steady_state.cpp"

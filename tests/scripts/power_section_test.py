@@ -11,8 +11,9 @@ import numpy as np
 from millfoam.files.mill_case import MillCase
 from millfoam.readings.power_models import bond, hogg_fuerstenau, morrell
 from millfoam.readings.means import Mean
+from millfoam.report.case_readings import power_name
 from millfoam.report.power_section import models_table, net_note, outside, powers, specific
-from report_cases import LENGTH, OMEGA, TIME0, change_json, write_flow
+from report_cases import DURATION, LENGTH, OMEGA, TIME0, change_json, write_flow, write_steps
 
 TURN, BEGIN = 0.1, 0.5  # s: averages of write_flow's 0.8 s that are three turns
 SPEED = -OMEGA / 8.09
@@ -51,6 +52,11 @@ class Powers(unittest.TestCase):
         turn = np.ceil((times - BEGIN) / TURN - 1e-6).astype(int)
         return np.concatenate([[9.0], values, [9.0]])[np.clip(turn, 0, len(values) + 1)]
 
+    def without_balls(self):
+        """Makes the flow one without balls, after the dry run in the same case."""
+        (self.folder / "constant" / "bedProperties").unlink()
+        write_steps(self.folder, 0, np.linspace(0.008, DURATION, 100), law=None)
+
     def rows(self, case):
         """Rows (name, power by the model, simulated over it) of the card of the models."""
         card = models_table(case, powers(case))
@@ -88,8 +94,10 @@ class Powers(unittest.TestCase):
         self.assertEqual(specific(case, "slurry", found["slurry"])[1], "0.75 ± 0.05 W (95 % within ± 0.64 W: the error "
                                                                        "has 1 degree of freedom)")
         self.assertIn("Both are means over 2 whole turns", net_note(case))
-        # Three turns have two degrees, and what is not from turns has a known error
-        for power in (Mean(0.75, 0.05, 2), Mean(0.75, 0.05)):
+        # Three turns have two degrees; eight degrees, those of a dry run, and what is not from turns are known enough
+        self.assertEqual(specific(case, "slurry", Mean(0.75, 0.05, 2))[1], "0.75 ± 0.05 W (95 % within ± 0.22 W: the "
+                                                                           "error has 2 degrees of freedom)")
+        for power in (Mean(0.75, 0.05, 8), Mean(0.75, 0.05)):
             self.assertEqual(specific(case, "slurry", power)[1], "0.75 ± 0.05 W")
 
     def test_of_fewer_than_two_turns_are_the_charges_alone(self):
@@ -141,6 +149,45 @@ class Powers(unittest.TestCase):
         case.turn = 0.2
         card = models_table(case, powers(case))
         self.assertIn("The power is not compared with models: the balls feel the slurry", card)
+
+    def test_of_a_flow_without_balls_the_drives_is_the_slurrys_and_the_charge_is_compared_dry(self):
+        self.without_balls()
+        case = self.case(held=2 * PORES)
+        found = powers(case)
+        self.assertEqual(list(found), ["charge", "slurry", "drive"])
+        self.assertEqual(found["drive"], found["slurry"])
+        self.assertAlmostEqual(found["drive"].value, 0.7, places=9)
+        self.assertEqual(power_name(case), "power of the dry charge, which is not in this flow")
+        self.assertIn("Charge: what the walls give to the balls of the dry run, which are not in this flow. Slurry: "
+                      "the torque of the walls on it, times the mill's speed. Drive: what the walls give to the "
+                      "slurry. Both are means over 3 whole turns", net_note(case))
+        self.assertEqual(self.rows(case), [
+            self.row("Hogg &amp; Fuerstenau, 35°, dry", hogg_fuerstenau(*SIZE, DRY), 3.21),
+            self.row("Morrell, C-model, dry", morrell(*SIZE, DRY).net, 3.21),
+            self.row("Bond", bond(0.3, SPEED, FILLING, 2.0), 3.21)])
+
+    def test_of_balls_in_a_pool_at_rest_the_drives_is_not_known_and_nothing_is_compared(self):
+        case = self.case("buoyancy")
+        self.assertEqual(list(powers(case)), ["charge", "slurry"])
+        self.assertEqual(power_name(case), "power of the charge in a pool at rest")
+        self.assertIn("Charge: what the walls give to the balls, which feel the buoyancy of a pool at rest.",
+                      net_note(case))
+        self.assertIn("Drive: not known, because what moves the pool at rest is not known. The slurry's is a mean over "
+                      "3 whole turns", net_note(case))
+        self.assertEqual(self.rows(case), [])
+        self.assertIn("The power is not compared with models: the balls lie in a pool at rest",
+                      models_table(case, powers(case)))
+        case.turn = 0.2
+        self.assertIn("The power of the slurry needs two whole turns; this flow has 1.", net_note(case))
+
+    def test_of_balls_in_a_pool_at_rest_that_are_not_in_the_flow_have_both_words(self):
+        self.without_balls()
+        case = self.case("buoyancy")
+        found = powers(case)
+        self.assertEqual(found["drive"], found["slurry"])
+        self.assertEqual(power_name(case), "power of the charge in a pool at rest, which is not in this flow")
+        self.assertIn("the balls of a run in a pool at rest, which are not in this flow", net_note(case))
+        self.assertEqual(self.rows(case), [])
 
     def test_two_turns_end_with_the_flow(self):
         case = self.case("flow", (2.0, 2.1, 1.9))

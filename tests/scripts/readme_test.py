@@ -3,6 +3,8 @@
 """Pages for people: their links lead somewhere, and the mills that they show are accepted."""
 import json
 import re
+import subprocess
+import sys
 import tempfile
 import unittest
 from collections import Counter
@@ -91,6 +93,14 @@ class Readme(unittest.TestCase):
                     self.assertTrue(target.exists(), "no such file")
                     if heading:
                         self.assertIn(heading, anchors(target))
+
+    def test_the_begin_of_averages_has_the_same_words_as_in_the_help_of_the_commands(self):
+        words = "or at half of the flow's time where at most half of the planned averaged time was computed"
+        page = (ROOT / "scripts" / "README.md").read_text(encoding="utf-8")
+        self.assertIn(f"`flow.averages.start`, {words}", " ".join(page.split()))
+        for package in ("millfoam.plots", "millfoam.report"):
+            done = subprocess.run([sys.executable, "-m", package, "--help"], capture_output=True, text=True, check=True)
+            self.assertIn(f"at the mill's flow.averages.start, {words}", " ".join(done.stdout.split()))
 
     def test_the_mills_of_the_pages_are_accepted(self):
         for page in (ROOT / "README.md", ROOT / "meshing" / "README.md"):

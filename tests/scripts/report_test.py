@@ -21,9 +21,9 @@ from millfoam.files.mill_case import MillCase
 from millfoam.files.outline import circle, lifter_outline
 from millfoam.plots.mill_plots import plot_strip
 from millfoam.readings import free_surface, models
-from millfoam.readings.axial import Humps, drop, drop_error, mean_profile
+from millfoam.readings.axial import Humps, drop, drop_over_turns, mean_profile
 from millfoam.readings.maps_of_times import mean_flow, mean_of_times
-from millfoam.readings.means import Mean, angle_mean, time_mean
+from millfoam.readings.means import Mean, angle_mean, time_mean, turns_mean
 from millfoam.readings.mill_power import power_begin
 from millfoam.readings.power_models import hogg_fuerstenau
 from millfoam.readings.slurry_on_maps import pool
@@ -32,10 +32,10 @@ from millfoam.report import comparison, figures, slurry_sections
 from millfoam.report.build import compare_cases, report_case
 from millfoam.report.case_readings import Readings, humps_words, key_numbers
 from millfoam.report.power_section import net_note
-from millfoam.report.sections import spans, stage_costs
+from millfoam.report.sections import run_section, spans, stage_costs
 from millfoam.report.words import uncertain
-from report_cases import (OMEGA, TIME0, change_json, make_slice, write_dry, write_flow, write_fluid_only, write_mill,
-                          write_slurry, write_solids, write_steps)
+from report_cases import (OMEGA, PRINTS, TIME0, change_json, make_slice, write_dry, write_flow, write_fluid_only,
+                          write_mill, write_slurry, write_solids, write_steps)
 
 REPORT = Path(__file__).resolve().parents[2] / "scripts" / "report"
 VOID = {"meta", "link", "img", "input", "br"}
@@ -279,7 +279,8 @@ class OneCase(Case):
         series = replace(series, times=series.times[-40:], pressure=pressure, height=series.height[-40:],
                          holdup=series.holdup[-40:])
         self.assertAlmostEqual(drop(mean_profile(series)), 50)
-        self.assertAlmostEqual(drop_error(series, case.begin, case.turn), np.std([40, 50, 60, 50], ddof=1) / 2)
+        self.assertAlmostEqual(drop_over_turns(series, case.begin, case.turn).error,
+                               np.std([40, 50, 60, 50], ddof=1) / 2)
         blocks = [replace(readings.slurry, share=scale * readings.slurry.share) for scale in (0.8, 1.0, 0.9)]
         areas = [pool(one, np.zeros_like(one.share)).area for one in blocks]
         case.solids = None
@@ -306,6 +307,31 @@ class OneCase(Case):
             case.turn = 0.3
             self.assertIn("no ±: it needs two whole turns of the flow, and this one was averaged over 1",
                           spans(case, Readings(case)))
+
+    def test_numbers_of_many_turns_have_their_interval_where_it_is_wide(self):
+        case = MillCase(write_flow(self.folder / "flow"))
+        readings = Readings(case)
+        times, names = case.balance["Time"], ("hold-up of slurry", "drop of p_rgh in the slurry along the axis "
+                                              "(straight line)", "discharge", "feed")
+        # Two of them rise from turn to turn, so that the turns hardly show their errors
+        case.balance["holdUp"] = 8e-4 + 1e-5 * times
+        rising = 1 + readings.series.times[:, None]
+        readings.series = replace(readings.series, pressure=rising * readings.series.pressure)
+        case.balance["feed"] = 2e-5 + 0 * times
+        for turn, turns in ((0.02, 20), (0.04, 10)):
+            case.turn = turn
+            rows, words = dict(key_numbers(case, readings)), spans(case, readings)
+            late = times > case.begin + 1e-9
+            held = turns_mean(case.balance["holdUp"][late].reshape(turns, -1).mean(axis=1))
+            self.assertIn(f"the means of {turns} whole turns", words)
+            many = turns > 11
+            self.assertEqual("known within" in words, not many)
+            self.assertEqual("Neighbouring turns may be alike (correlated)" in words, many)
+            self.assertEqual("the table has it" in words, many)
+            found = [re.search(r" \(95 % within ± (\S+) (.*?): the error has (.*)\)$", rows[name]) for name in names]
+            self.assertEqual([one is not None for one in found], [many, many, False, False])
+            if many:
+                self.assertEqual(found[0].groups(), (f"{1e6 * held.reach:.2g}", "ml", "1 degree of freedom"))
 
     def test_the_power_names_its_begin_and_the_figure_marks_it(self):
         flow = write_flow(self.folder / "flow")
@@ -582,6 +608,33 @@ class Several(Case):
         flow = write_flow(self.folder / "flow")
         (flow / "log.costs").write_text("charge,30\n~flow,12\nflow,3\n")
         self.assertEqual(dict(stage_costs(MillCase(flow))), {"charge": 30.0, "flow": 3.0})
+
+    def test_costs_of_a_charge_from_another_case_are_those_of_its_charge(self):
+        mine, other = write_flow(self.folder / "new"), write_flow(self.folder / "my_mill")
+        (other / "log.costs").write_text("walls,1\ncharge,30\n~average,7\naverage,3\nmesh,5\nflow,90\nreport,9\n")
+        (mine / "log.costs").write_text("mesh,6\nflow,40\nflow,2\nreport,8\n")
+        (mine / "solids.h5").unlink()
+        (mine / "solids.h5").symlink_to("../my_mill/solids.h5")
+        case = MillCase(mine)
+        self.assertEqual(list(stage_costs(case).items()), [
+            ("my_mill: walls", 1.0), ("my_mill: charge", 30.0), ("my_mill: average", 3.0), ("mesh", 6.0),
+            ("flow", 42.0), ("report", 8.0)])
+        self.assertIn("Before a colon: another folder", " ".join(run_section(case, None)))
+        self.assertNotIn("Before a colon", " ".join(run_section(MillCase(other), None)))
+
+    def test_costs_of_a_coupled_mill_are_those_of_all_its_passes(self):
+        for coupling, name in (("direct", "direct"), ("iterated", "pass_2")):
+            whole = write_flow(self.folder / coupling)
+            last = write_flow(whole / name)
+            for folder in (whole, last):
+                change_json(folder / "mill.json", "derived", "flow", "coupling", to=coupling)
+            (whole / "log.costs").write_text("charge,30\ncoupling,2\n")
+            (last / "log.costs").write_text("flow,40\n")
+            self.assertEqual(stage_costs(MillCase(last)), {"flow": 40.0})  # not compared yet
+            (whole / "coupling.json").write_text(json.dumps({"format": "millfoam-coupling", "coupling": coupling,
+                                                             "folders": [".", name], "mill": PRINTS}))
+            self.assertEqual(list(stage_costs(MillCase(last)).items()), [
+                (f"{coupling}: charge", 30.0), (f"{coupling}: coupling", 2.0), ("flow", 40.0)])
 
     def test_measurements_are_compared_with_one_case_only(self):
         ended = self.command(self.folder, self.folder, "--measured", "map.csv")

@@ -4,9 +4,10 @@
 escaped."""
 import unittest
 
+from millfoam.readings.means import Mean
 from millfoam.report import page
 from millfoam.report.sections import last_turn
-from millfoam.report.words import Name, decimals, millilitres, quantity, span_of_time, typeset, uncertain
+from millfoam.report.words import Name, decimals, millilitres, quantity, reach_words, span_of_time, typeset, uncertain
 
 
 class Words(unittest.TestCase):
@@ -47,6 +48,19 @@ class Words(unittest.TestCase):
         self.assertEqual(uncertain(-1.2e-5, 2e-7, "N m"), "(-1.200 ± 0.020)·10⁻⁵ N m")
         self.assertEqual(uncertain(1234.5, float("nan"), "ml", ".0f"), "1234 ml")
         self.assertEqual(millilitres(1.2345e-3, 4, 1.2e-5), "1234 ± 12 ml")
+
+    def test_an_error_of_few_degrees_of_freedom_has_the_interval_that_follows_from_it(self):
+        self.assertEqual(reach_words(Mean(0.75, 0.05, 1), "W"),
+                         " (95 % within ± 0.64 W: the error has 1 degree of freedom)")
+        # 4.3 errors of 1.2 mm to the other side, 12.7 of 100 ml, 2.4 of 1 degree
+        self.assertEqual(reach_words(Mean(-0.03, 0.0012, 2), "mm", -1e3),
+                         " (95 % within ± 5.2 mm: the error has 2 degrees of freedom)")
+        self.assertIn("± 1271 ml:", reach_words(Mean(5e-3, 1e-4, 1), "ml", 1e6))
+        self.assertIn("± 2.4°: the error has 6.8 degrees", reach_words(Mean(30.0, 1.0, 6.8), "°"))
+        self.assertIn("± 2.4: the", reach_words(Mean(30.0, 1.0, 6.8), ""))
+        for known in (Mean(0.75, 0.05, 8), Mean(0.75, 0.05), Mean(0.75, 0.0, 1), Mean(0.75, 1e-17, 1),
+                      Mean(0.75, float("nan"), 0)):
+            self.assertEqual(reach_words(known, "W"), "")
 
     def test_what_is_written_into_a_page_is_escaped(self):
         for made in (page.text("a < b & \"c\""), page.paragraph("a < b & c"),

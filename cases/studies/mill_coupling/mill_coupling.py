@@ -12,7 +12,6 @@ from millfoam.coupling.passes import QUANTITIES, Pass, change, read_pass
 from millfoam.files.data_files import read_json, write_csv
 from millfoam.files.mill_case import MillCase
 from millfoam.plots.mill_plots import draw_outline
-from millfoam.readings.means import Mean
 from millfoam.readings.slurry_over_time import mean_slurry, slurry_blocks
 from millstudies.mean_columns import mean_columns, mean_text
 
@@ -41,9 +40,7 @@ def rows_of(mill, ways):
     for name, one in ways.items():
         row = {"mill": mill, "coupling": name}
         for key, (quantity, unit, scale) in QUANTITIES.items():
-            # What moves a pool at rest is not known, so neither is the motor's power
-            mean = one.quantities[key] if (key, name) != ("drive_power", "buoyancy") else Mean(np.nan, np.nan)
-            row |= mean_columns(f"{quantity}, {unit}", mean, scale)
+            row |= mean_columns(f"{quantity}, {unit}", one.quantities[key], scale)
         row["solidity from one way"] = 0.0 if one is dry else change(dry, one).solidity
         row["its noise"] = np.hypot(dry.noise, one.noise) / np.sqrt(2)
         row["force over weight"] = one.load

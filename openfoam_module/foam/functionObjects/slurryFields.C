@@ -14,10 +14,11 @@ const FieldType& Foam::slurryFields::find(const word& name) const
     if (!mesh_.foundObject<FieldType>(name))
     {
         FatalIOErrorInFunction(dict_)
-            << "the flow has no " << FieldType::typeName << " '" << name
-            << "', it has " << flatOutput(mesh_.sortedNames<FieldType>())
+            << dict_.dictName() << ": the flow has no " << FieldType::typeName
+            << " '" << name << "', it has "
+            << flatOutput(mesh_.sortedNames<FieldType>())
             << "; give the right name by the entries phase, U, p or p_rgh"
-            << " of this function object" << exit(FatalIOError);
+            << exit(FatalIOError);
     }
     return mesh_.lookupObject<FieldType>(name);
 }

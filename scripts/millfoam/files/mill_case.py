@@ -25,8 +25,9 @@ CUT = 0.01  # share of a flow's duration that may be missing
 class MillCase:
     """A mill's run in a folder; missing parts are None.
 
-    begin: flow time at which the averages begin, s. None: the mill's own (flow.averages_start), or half of the time of
-    a flow that was cut short before. The averages of a dry run begin at the same DEM time, or when it is steady.
+    begin: flow time at which the averages begin, s. None: the mill's flow.averages.start, or half of the flow's time
+    where at most half of the planned averaged time was computed. The averages of a dry run begin at the same DEM time,
+    or when it is steady.
     unusable: why files cannot be used, in words."""
 
     machine = "tumbling"  # that mill.json must have
@@ -293,8 +294,9 @@ class MillCase:
 
     @cached_property
     def begin(self) -> float:
-        """Flow time at which the averages begin, s. If the flow has less than half of the time that the mill averages,
-        half of its time."""
+        """Flow time at which the averages begin, s: the mill's flow.averages.start, or half of the flow's time where at
+        most half of the planned averaged time, from there to the flow's duration, was computed. With flow.steady, that
+        of steady.json or, before the flow's end, of its last turns, at most its second half."""
         if self.asked_begin is not None:
             return self.asked_begin
         if self.own_end:

@@ -19,8 +19,8 @@ def main() -> None:
     parser = argparse.ArgumentParser(prog="plot_mill", description=__doc__)
     parser.add_argument("case", type=Path)
     parser.add_argument("--begin", type=float,
-                        help="flow time at which the averages begin, s [the mill's flow.averages.start; for a flow "
-                             "that ends before it, half of its time]")
+                        help="flow time at which the averages begin, s [at the mill's flow.averages.start, or at half "
+                             "of the flow's time where at most half of the planned averaged time was computed]")
     options = parser.parse_args()
     flow = MillFlow(options.case)
     last = flow.frames[-1][0]

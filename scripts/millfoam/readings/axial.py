@@ -11,7 +11,8 @@ from scipy.optimize import curve_fit
 
 from ..files.flow_record import read_flow_record
 from ..files.written_times import MillFlow
-from .batches import error_over_turns
+from .batches import mean_over_turns
+from .means import Mean
 
 FLAT = 1e-9  # m: a range of heights that round-off can make
 
@@ -106,11 +107,11 @@ def line_drop(z: np.ndarray, pressure: np.ndarray) -> float:
     return float(-(z[-1] - z[0]) * np.polyfit(z[known], pressure[known], 1)[0])
 
 
-def drop_error(series: AxialSeries, begin: float, turn: float) -> float:
-    """Standard error of the drop of an AxialSeries' mean profile, of means over whole turns of `turn` s from `begin`
-    (s) on; NaN if fewer than two fit."""
+def drop_over_turns(series: AxialSeries, begin: float, turn: float) -> Mean | None:
+    """Drop of an AxialSeries' profiles, Pa, as mean_over_turns has it, of whole turns of `turn` s from `begin` (s) on;
+    None if fewer than two fit."""
     drops = np.array([line_drop(series.z, pressure) for pressure in series.pressure])
-    return error_over_turns(series.times, drops, begin, turn)
+    return mean_over_turns(series.times, drops, begin, turn)
 
 
 def gaussians(z: ArrayLike, base: float, *humps: float) -> np.ndarray:

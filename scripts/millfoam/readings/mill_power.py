@@ -18,6 +18,11 @@ def feels_slurry(case: MillCase) -> bool:
     return fluid_kind(case) in ("slurry", "flow")
 
 
+def lies_in_pool(case: MillCase) -> bool:
+    """Whether the balls of a MillCase felt the buoyancy of a pool at rest, and no flow."""
+    return fluid_kind(case) == "buoyancy"
+
+
 def moved_with_flow(case: MillCase) -> bool:
     """Whether the balls of a MillCase moved at the same time as its flow."""
     return case.flow is not None and fluid_kind(case) == "flow"
@@ -112,9 +117,12 @@ def drive_power(case: MillCase, fewest: int = TURNS) -> Mean:
 
     Balls that feel the slurry pass on to it what they take from the walls: the drive gives the power of the charge and
     that of the walls on the slurry. If they moved at the same time as the flow, both are of the same turns, and the
-    error is that of their sums. Balls that do not feel the slurry give it power of their own, which is added."""
+    error is that of their sums. Balls that do not feel the slurry give it power of their own, which is added. A flow
+    without balls has the slurry's power alone. NaN, too, for balls in a pool at rest: what moves it is not known."""
+    if not case.has_balls:
+        return slurry_power(case, fewest)
     columns = known_balance(case, fewest)
-    if columns is None:
+    if columns is None or lies_in_pool(case):
         return UNKNOWN
     given = by_walls(columns) if feels_slurry(case) else columns["power"]
     to_slurry = turn_means(columns["Time"], given, case.begin, case.turn)

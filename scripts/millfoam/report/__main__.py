@@ -30,8 +30,8 @@ def main() -> None:
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("cases", nargs="+", type=Path, metavar="CASE")
     parser.add_argument("--begin", type=float,
-                        help="time at which the averages begin, s [the mill's flow.averages.start; for a flow that was "
-                             "cut short, half of its time]")
+                        help="time at which the averages begin, s [at the mill's flow.averages.start, or at half of "
+                             "the flow's time where at most half of the planned averaged time was computed]")
     parser.add_argument("--measured", type=Path, metavar="CSV",
                         help="compares the charge with a measured map on the run's voxels: x_m, y_m, solidity, vx, vy")
     parser.add_argument("--tracer", type=Path, action="append", default=[], metavar="FILE",

@@ -10,11 +10,11 @@ from ..files.mill_case import MillCase
 from ..files.slurry_file import SlurryMap
 from ..readings import axial, charge
 from ..readings.axial import humps_at_ends
-from ..readings.batches import error_over_turns
-from ..readings.means import Reading, time_mean
-from ..readings.mill_power import charge_power, feels_slurry
+from ..readings.batches import mean_over_turns, whole_turns
+from ..readings.means import CORRELATED, Mean, Reading, time_mean
+from ..readings.mill_power import UNKNOWN, charge_power, feels_slurry, lies_in_pool
 from ..readings.slurry_over_time import Way, mean_slurry, read_series, slurry_blocks, slurry_way
-from .words import millilitres, uncertain
+from .words import millilitres, reach_words, uncertain
 
 Rows = list[tuple[str, str]]  # of a table: name and text
 # Of charge.charge_with_errors, in words
@@ -104,8 +104,7 @@ def key_numbers(case: MillCase, readings: Readings) -> Rows:
     rows = []
     if case.results:
         power = charge_power(case)
-        name = "power of the charge in the slurry" if feels_slurry(case) else "power of the dry charge"
-        rows.append((name, uncertain(power.value, power.error, "W")))
+        rows.append((power_name(case), uncertain(power.value, power.error, "W")))
     if case.has_balls:
         rows += load_numbers(case.mill)
     if isinstance(readings.charge, charge.Charge):
@@ -113,13 +112,43 @@ def key_numbers(case: MillCase, readings: Readings) -> Rows:
     if case.balance is not None:
         rows += balance_numbers(case)
     if isinstance(readings.profile, axial.AxialProfile) and len(readings.profile.z) > 2 and not case.is_slice:
-        error = axial.drop_error(readings.series, case.begin, case.turn)
-        rows.append(("drop of p_rgh in the slurry along the axis (straight line)",
-                     uncertain(axial.drop(readings.profile), error, "Pa")))
+        of_turns = axial.drop_over_turns(readings.series, case.begin, case.turn) or UNKNOWN
+        rows.append(("drop of p_rgh in the slurry along the axis (straight line)", flow_number(
+            case, Mean(axial.drop(readings.profile), of_turns.error, of_turns.freedom), "Pa")))
     for count, fit in readings.humps.items():
         if isinstance(fit, axial.Humps):
             rows.append((f"axial profile, {count} Gaussians", humps_words(fit, readings.profile.z)))
     return rows
+
+
+def power_name(case: MillCase) -> str:
+    """Name of the power of a case's charge: what its balls felt, and whether they are in its flow."""
+    kind = ("charge in the slurry" if feels_slurry(case) else "charge in a pool at rest" if lies_in_pool(case)
+            else "dry charge")
+    return f"power of the {kind}" + ("" if case.has_balls else ", which is not in this flow")
+
+
+def slurry_turns(case: MillCase) -> int:
+    """Whole turns of the flow from which the slurry's means have their errors."""
+    return whole_turns(case.last - case.begin, case.turn)
+
+
+def flow_mean(case: MillCase, times: np.ndarray, values: np.ndarray) -> Mean:
+    """Mean of a flow's values [n] at times [n] (s) over the averaged time, with the error of its whole turns, which is
+    NaN if fewer than two fit."""
+    of_turns = mean_over_turns(times, values, case.begin, case.turn) or UNKNOWN
+    return Mean(time_mean(times, values, case.begin), of_turns.error, of_turns.freedom)
+
+
+def flow_number(case: MillCase, mean: Mean, unit: str, scale: float = 1.0, form: str = ".3g") -> str:
+    """A flow_mean times `scale` in words, with flow_reach."""
+    return uncertain(scale * mean.value, abs(scale) * mean.error, unit, form) + flow_reach(case, mean, unit, scale)
+
+
+def flow_reach(case: MillCase, mean: Mean, unit: str, scale: float = 1.0) -> str:
+    """reach_words of a flow_mean over CORRELATED turns or more. Empty for fewer: the note about the errors of the flow
+    has one factor for all of them."""
+    return reach_words(mean, unit, scale) if slurry_turns(case) >= CORRELATED else ""
 
 
 def humps_words(fit: axial.Humps, z: np.ndarray) -> str:
@@ -160,26 +189,20 @@ def balance_numbers(case: MillCase) -> Rows:
     columns, late = case.balance, case.balance["Time"] >= case.begin
     if not late.any():
         return []
-    mean = {name: time_mean(columns["Time"], values, case.begin) for name, values in columns.items()}
 
-    def error_of(values: np.ndarray) -> float:
-        return error_over_turns(columns["Time"], values, case.begin, case.turn)
-
-    def error(name: str) -> float:
-        return error_of(columns[name])
-    rows = [("hold-up of slurry", millilitres(mean["holdUp"], 4, error("holdUp"))),
-            ("centre of the slurry, x to the falling side",
-             uncertain(1e3 * to_falling_side(case, mean["x"]), 1e3 * error("x"), "mm")),
-            ("centre of the slurry, y", uncertain(1e3 * mean["y"], 1e3 * error("y"), "mm")),
-            ("power for the slurry", uncertain(mean["power"], error("power"), "W"))]
+    def number(values: np.ndarray, unit: str, scale: float = 1.0, form: str = ".3g") -> str:
+        return flow_number(case, flow_mean(case, columns["Time"], values), unit, scale, form)
+    held = flow_mean(case, columns["Time"], columns["holdUp"])
+    rows = [("hold-up of slurry", millilitres(held.value, 4, held.error) + flow_reach(case, held, "ml", 1e6)),
+            ("centre of the slurry, x to the falling side", number(columns["x"], "mm", to_falling_side(case, 1e3))),
+            ("centre of the slurry, y", number(columns["y"], "mm", 1e3)),
+            ("power for the slurry", number(columns["power"], "W"))]
     if case.is_open and not case.is_slice:
-        rows += [(name, uncertain(1e6 * mean[name], 1e6 * error(name), "ml/s", ".1f")) for name in ("feed",
-                                                                                                    "discharge")]
-        rows.append(("feed minus discharge",
-                     uncertain(1e6 * (mean["feed"] - mean["discharge"]),
-                               1e6 * error_of(columns["feed"] - columns["discharge"]), "ml/s", ".1f")))
+        rows += [(name, number(values, "ml/s", 1e6, ".1f")) for name, values in (
+            ("feed", columns["feed"]), ("discharge", columns["discharge"]),
+            ("feed minus discharge", columns["feed"] - columns["discharge"]))]
     if case.met_balls:
-        rows += [(name, uncertain(mean[key], error(key), "", ".0f")) for name, key in (
+        rows += [(name, number(columns[key], "", form=".0f")) for name, key in (
             ("particle Reynolds number in slurry, mean", "Re_mean"),
             ("particle Reynolds number, 95 % of the balls below", "Re_95"))]
     return rows

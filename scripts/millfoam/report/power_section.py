@@ -8,14 +8,14 @@ from ..files.mill_case import MillCase
 from ..readings import power_models
 from ..readings.batches import whole_turns
 from ..readings.means import Mean, time_mean
-from ..readings.mill_power import charge_power, drive_power, feels_slurry, known_balance, slurry_power
+from ..readings.mill_power import (charge_power, drive_power, feels_slurry, known_balance, lies_in_pool,
+                                   slurry_power)
 from . import page
 from .case_readings import Readings
 from .coupling_section import coupling_of
-from .words import uncertain
+from .words import reach_words, uncertain
 
 FEWEST = 2  # whole turns of the flow with powers of slurry and drive
-FREEDOM = 2.0  # degrees of freedom of an error, below which the table has the interval that follows from it
 
 
 def power_section(case: MillCase, _readings: Readings) -> list[str]:
@@ -29,44 +29,56 @@ def power_section(case: MillCase, _readings: Readings) -> list[str]:
 
 
 def powers(case: MillCase) -> dict[str, Mean]:
-    """Name -> Mean (W) of the charge's power, and with a flow of FEWEST turns or more the slurry's and the drive's."""
-    found = {"charge": charge_power(case)}
-    slurry = slurry_power(case, FEWEST)
-    if np.isfinite(slurry.value):
-        found |= {"slurry": slurry, "drive": drive_power(case, FEWEST)}
-    return found
+    """Name -> Mean (W) of the charge's power, and with a flow of FEWEST turns or more the slurry's and, if it is known,
+    the drive's."""
+    of_flow = {"slurry": slurry_power(case, FEWEST), "drive": drive_power(case, FEWEST)}
+    return {"charge": charge_power(case)} | {name: power for name, power in of_flow.items()
+                                             if np.isfinite(power.value)}
 
 
 def specific(case: MillCase, name: str, power: Mean) -> tuple[str, ...]:
-    """Row of a power: name, W, W/m and W/kg with their errors, W also with the interval of an error of few degrees of
-    freedom."""
+    """Row of a power: name, W, W/m and W/kg with their errors, W also with reach_words: the degrees of freedom differ
+    from row to row."""
     mass = case.mill.derived("charge", "mass_kg")
     watts, *others = (uncertain(power.value / over, power.error / over, unit)
                       for over, unit in ((1.0, "W"), (case.length, "W/m"), (mass, "W/kg")))
-    return name, watts + reach_words(power), *others
-
-
-def reach_words(power: Mean) -> str:
-    """How far a power (W) may be from its value if its error has fewer degrees of freedom than FREEDOM; else empty."""
-    if not (power.freedom < FREEDOM and power.error > 0):
-        return ""
-    return (f" (95 % within ± {power.reach:.2g} W: the error has {power.freedom:.2g} "
-            f"degree{'' if power.freedom == 1 else 's'} of freedom)")
+    return name, watts + reach_words(power, "W"), *others
 
 
 def net_note(case: MillCase) -> str:
     """What the powers are."""
-    words = "Charge: what the walls give to the balls."
+    words = charge_words(case)
     if case.flow:
         turns = (whole_turns(min(case.balance["Time"][-1], case.last) - case.begin, case.turn)
                  if case.balance is not None else 0)
-        words += (" Slurry: the torque of walls and balls on it, times the mill's speed. Drive: "
-                  + ("what the walls give to balls and slurry; the balls pass a part of theirs on to the slurry."
-                     if feels_slurry(case) else
-                     "both together; the balls do not feel the slurry, and keep what they give to it.")
-                  + (f" Both are means over {turns} whole turns of the flow." if turns >= FEWEST else
-                     f" The power of slurry and drive needs two whole turns; this flow has {turns}."))
+        sources = "walls and balls" if case.has_balls else "the walls"
+        words += f" Slurry: the torque of {sources} on it, times the mill's speed. Drive: {drive_words(case)}"
+        means, of = (("The slurry's is a mean", "the slurry") if case.has_balls and lies_in_pool(case) else
+                     ("Both are means", "slurry and drive"))
+        words += (f" {means} over {turns} whole turns of the flow." if turns >= FEWEST else
+                  f" The power of {of} needs two whole turns; this flow has {turns}.")
     return f"{words} ±: standard errors over time.{torque_words(case)}"
+
+
+def charge_words(case: MillCase) -> str:
+    """What the charge's power is."""
+    if not case.has_balls:
+        run = "a run in a pool at rest" if lies_in_pool(case) else "the dry run"
+        return f"Charge: what the walls give to the balls of {run}, which are not in this flow."
+    if lies_in_pool(case):
+        return "Charge: what the walls give to the balls, which feel the buoyancy of a pool at rest."
+    return "Charge: what the walls give to the balls."
+
+
+def drive_words(case: MillCase) -> str:
+    """What the drive's power is, of a case with a flow."""
+    if not case.has_balls:
+        return "what the walls give to the slurry."
+    if lies_in_pool(case):
+        return "not known, because what moves the pool at rest is not known."
+    if feels_slurry(case):
+        return "what the walls give to balls and slurry; the balls pass a part of theirs on to the slurry."
+    return "both together; the balls do not feel the slurry, and keep what they give to it."
 
 
 def torque_words(case: MillCase) -> str:
@@ -82,14 +94,14 @@ def torque_words(case: MillCase) -> str:
 
 
 def models_table(case: MillCase, found: dict[str, Mean]) -> str:
-    """Card of the models: the dry charge and, with a flow, the charge with the slurry that is in its pores, and
-    with the pool of what does not fit into them."""
+    """Card of the models: the dry charge and, with a flow through it, the charge with the slurry that is in its pores,
+    and with the pool of what does not fit into them."""
     mill = case.mill
     solidity, pores = (mill.derived("charge", key) for key in ("resting_solidity", "pore_volume_m3"))
-    kinds = [] if feels_slurry(case) else [
+    kinds = [] if feels_slurry(case) or lies_in_pool(case) else [
         (", dry", found["charge"], power_models.bulk_density(mill.ball_density, solidity))]
     held = 0.0
-    if "drive" in found:
+    if "drive" in found and case.has_balls:
         columns = known_balance(case, FEWEST)
         assert columns is not None
         held = time_mean(columns["Time"], columns["holdUp"], case.begin)
@@ -106,8 +118,9 @@ def models_table(case: MillCase, found: dict[str, Mean]) -> str:
                  (f"Morrell, C-model{words}",
                   *against(lambda: power_models.morrell(*size, density).net, simulated))]
     if not kinds:
-        return page.paragraph("The power is not compared with models: the balls feel the slurry, and the flow was "
-                              "averaged over fewer than two turns.")
+        return page.paragraph("The power is not compared with models: " + (
+            "the balls lie in a pool at rest, and what moves it is not known." if lies_in_pool(case) else
+            "the balls feel the slurry, and the flow was averaged over fewer than two turns."))
     if held > pores:
         rows.append((f"Morrell, C-model{kinds[-1][0]}, with its pool", *against(
             lambda: power_models.morrell(*size, kinds[-1][2], mill.slurry("density_kg_m3"), overflow=True).net,

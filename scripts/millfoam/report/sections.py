@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Sections of the report of one case. Each function returns cards, or none if the case lacks what it shows."""
-from collections.abc import Iterable
+from pathlib import Path
 from typing import Any
 
 import h5py
@@ -10,13 +10,12 @@ from ..files import solids_file
 from ..files.data_files import read_text
 from ..files.mill_case import MillCase
 from ..plots import charge_plots, mill_plots
-from ..readings.batches import whole_turns
-from ..readings.means import Mean
+from ..readings.means import CORRELATED, Mean
 from ..readings.mill_power import power_begin
 from . import figures, maps, page
-from .case_readings import FRAME, Readings, key_numbers
+from .case_readings import FRAME, Readings, key_numbers, slurry_turns
 from .contact_cards import contact_section
-from .coupling_section import coupling_section
+from .coupling_section import coupling_of, coupling_section
 from .flow_checks import beyond_law
 from .power_section import power_section
 from .slurry_sections import axial_section, balance_section, models_section, slurry_section
@@ -24,6 +23,7 @@ from .stages import programs
 from .words import Name, quantity, span_of_time
 
 FRAMES = 40  # of the animation, at most
+CHARGE_STAGES = ("walls", "charge", "average")  # that a case may have from another one
 
 
 def overview(case: MillCase, readings: Readings) -> list[str]:
@@ -46,7 +46,7 @@ def spans(case: MillCase, readings: Readings) -> str:
     if case.solids or case.results:
         text += " ±: standard errors of batch means over time."
     if case.flow:
-        text += errors_of_flow(whole_turns(case.last - case.begin, case.turn))
+        text += errors_of_flow(slurry_turns(case))
     if case.solids or case.results:
         text += " Angles are counted from straight down, positive where the shell rises."
     return f"{text} {FRAME}{readings.short_blocks(slurry=False)}"
@@ -57,8 +57,12 @@ def errors_of_flow(turns: int) -> str:
     if turns < 2:
         return (f" The slurry's means have no ±: it needs two whole turns of the flow, and this one was averaged over "
                 f"{turns}.")
-    return (f" ± of the slurry: standard errors of the means of {turns} whole turns. With 95 % confidence a mean is "
-            f"known within {Mean(0.0, 1.0, turns - 1).reach:.1f} of them (two turns: 12.7, three: 4.3, many: 2.0).")
+    words = f" ± of the slurry: standard errors of the means of {turns} whole turns."
+    if turns >= CORRELATED:
+        return (f"{words} Neighbouring turns may be alike (correlated), so that an error is known less well: where "
+                "the interval of 95 % confidence is wider than usual (2.0 to 2.3 of them), the table has it.")
+    return (f"{words} With 95 % confidence a mean is known within {Mean(0.0, 1.0, turns - 1).reach:.1f} of them (two "
+            "turns: 12.7, three: 4.3, many: 2.0).")
 
 
 def animation(case: MillCase) -> str:
@@ -193,11 +197,13 @@ def numbers_of(content: dict[str, Any]) -> list[tuple[str, str]]:
 def run_section(case: MillCase, _readings: Readings) -> list[str]:
     """Versions and cost, and the resolved mill."""
     cards = [page.table(None, programs(case), title="Programs", note="From the files that they wrote.")]
-    costs = [(name, span_of_time(seconds)) for name, seconds in stage_costs(case)]
+    costs = [(name, span_of_time(seconds)) for name, seconds in stage_costs(case).items()]
     if costs:
+        others = (" Before a colon: another folder, in which the stage was run."
+                  if any(isinstance(name, Name) for name, _ in costs) else "")
         cards.append(page.table(None, costs, title="Cost by stage",
                                 note="Wall time, the sum of all runs of a stage that ended or failed. Killed runs are "
-                                     "not counted."))
+                                     f"not counted.{others}"))
     mill = case.mill
     rows: list[tuple[str, str]] = [(f"fingerprint: {part}", Name(found))
                                    for part, found in mill.fingerprint.items() if found]
@@ -212,22 +218,36 @@ def run_section(case: MillCase, _readings: Readings) -> list[str]:
                                 mill.text())]
 
 
-def stage_costs(case: MillCase) -> Iterable[tuple[str, float]]:
-    """(stage, wall time in s) from log.costs of the charge's and the case's folder, summed over all runs of a
-    stage."""
+def stage_costs(case: MillCase) -> dict[str, float]:
+    """Stage -> wall time, s, summed over all runs of it, in the order of the runs: of the case, and of a coupled case's
+    other passes; of a case that has its charge from another one, also CHARGE_STAGES of that. Stages of other folders
+    than the case's are a Name `FOLDER: STAGE`."""
+    own = case.folder.resolve()
+    passes = [own] if case.coupled is None else [(case.coupled / name).resolve() for name in
+                                                 coupling_of(case)["folders"]]
     costs: dict[str, float] = {}
-    for path in (folder / "log.costs" for folder in case.charge_folders):
-        for line in read_text(path).splitlines() if path.is_file() else ():
-            name, _, seconds = line.rpartition(",")
-            if name.startswith("~"):
-                continue  # of a stage that is being made again
-            try:
-                costs[name] = costs.get(name, 0) + float(seconds)
-            except ValueError:
-                continue  # half a line of a killed step
+    for folder in [other for other in case.charge_folders if other not in passes] + passes:
+        for stage, seconds in costs_of(folder).items():
+            if folder in passes or stage in CHARGE_STAGES:
+                costs[stage if folder == own else Name(f"{folder.name}: {stage}")] = seconds
     if not costs and case.results and "wall_time_s" in case.results:
         costs["balls"] = case.result("wall_time_s")
-    return costs.items()
+    return costs
+
+
+def costs_of(folder: Path) -> dict[str, float]:
+    """Stage -> wall time, s, summed over all runs of it, from log.costs in a folder; empty without this file."""
+    path = folder / "log.costs"
+    costs: dict[str, float] = {}
+    for line in read_text(path).splitlines() if path.is_file() else ():
+        name, _, seconds = line.rpartition(",")
+        if name.startswith("~"):
+            continue  # of a stage that is being made again
+        try:
+            costs[name] = costs.get(name, 0.0) + float(seconds)
+        except ValueError:
+            continue  # half a line of a killed step
+    return costs
 
 
 SECTIONS = (("overview", "Overview", overview), ("charge", "Charge", charge_section),

@@ -5,10 +5,14 @@ from typing import Any
 
 import numpy as np
 
+from ..readings.means import Mean
+
 SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 ROUND_OFF = 1e-12  # of a value, an error that is none
 SMALLEST = -3  # power of ten below which values with errors have it written
+# Degrees of freedom of an error; with fewer, the 95 % interval is wider than 2.3 errors (with many: 2.0), and is shown
+FREEDOM = 8.0
 
 # Ends of keys that are units, longer ones first
 UNITS = {"_kg_m3": "kg/m³", "_rad_s": "rad/s", "_Pa_s": "Pa s", "_m3_s": "m³/s", "_N_m": "N m", "_m_s": "m/s",
@@ -41,7 +45,7 @@ def decimals(error: float) -> int:
 def uncertain(value: float, error: float, unit: str, form: str = ".3g") -> str:
     """A value with its standard error and unit, if it has one; the value in a format if the error is unknown, zero or
     round-off."""
-    gap = "" if unit in ("°", "") else " "
+    gap = gap_before(unit)
     if not (np.isfinite(error) and error > ROUND_OFF * abs(value)):
         return f"{value:{form}}{gap}{unit}"
     size = int(np.floor(np.log10(max(abs(value), error))))
@@ -50,6 +54,23 @@ def uncertain(value: float, error: float, unit: str, form: str = ".3g") -> str:
         return f"({uncertain(value / 10.0**size, error / 10.0**size, '')})·10{power}{gap}{unit}"
     digits = decimals(error)
     return f"{value:.{digits}f} ± {error:.{digits}f}{gap}{unit}"
+
+
+def reach_words(mean: Mean, unit: str, scale: float = 1.0) -> str:
+    """How far a mean may be from its value, times `scale`, in a unit, if its error has fewer degrees of freedom than
+    FREEDOM; empty otherwise, and for an error that is unknown, zero or round-off."""
+    if not (mean.freedom < FREEDOM and mean.error > ROUND_OFF * abs(mean.value)):
+        return ""
+    reach = abs(scale) * mean.reach
+    shown = f"{reach:.2g}" if reach < 99.5 else f"{reach:.0f}"
+    freedom = f"{mean.freedom:.2g}"
+    return (f" (95 % within ± {shown}{gap_before(unit)}{unit}: the error has {freedom} "
+            f"degree{'' if freedom == '1' else 's'} of freedom)")
+
+
+def gap_before(unit: str) -> str:
+    """What stands between a number and its unit."""
+    return "" if unit in ("°", "") else " "
 
 
 def millilitres(volume: float, digits: int = 3, error: float = np.nan) -> str:
