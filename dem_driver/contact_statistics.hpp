@@ -105,8 +105,8 @@ class ContactStatistics {
   void add(std::int32_t ball, std::int32_t other, int kind, double energy, const ContactWork& work);
   /// Ends the step: contacts that were not in it have ended.
   void end_step();
-  /// Whether contacts that are new in this step are collisions. They are not in the first step that is seen,
-  /// because nobody knows when they began.
+  /// Whether contacts that are new in this step are touches. They are not in the first step that is seen,
+  /// because nobody knows when they began. When they end they are collisions, with the work since then.
   void count_touches(bool count) { counts_touches_ = count; }
   /// Contacts that have not ended.
   const std::vector<OpenContact>& open() const { return open_; }

@@ -99,7 +99,7 @@ void write_averages(std::ostream& out, const DemPlan& plan) {
 
 void write_dumps(std::ostream& out, const DemPlan& plan) {
   if (plan.dumps == 0) return;
-  out << "dump balls all custom " << plan.step.steps_per_record
+  out << "shell mkdir ../dumps\ndump balls all custom " << plan.step.steps_per_record
       << " ../dumps/dump.*.txt id type x y z vx vy vz radius";
   if (plan.charge.has_shapes())
     out << " shapex shapey shapez blockiness1 blockiness2 quat1 quat2 quat3 quat4";

@@ -39,7 +39,8 @@ void write_contacts(std::ostream& out, const DemPlan& plan);
 /// The balls' averages are made by millLiggghts, which finds the settings next to the deck.
 void write_averages(std::ostream& out, const DemPlan& plan);
 
-/// The balls of every record; of superquadrics `radius` is that of the sphere around one.
+/// The balls of every record, in a folder that is made where it is missing; of superquadrics `radius` is that
+/// of the sphere around one.
 void write_dumps(std::ostream& out, const DemPlan& plan);
 
 }  // namespace millfoam::dem_driver

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "dem_driver/resumption.hpp"
 
+#include <algorithm>
 #include <fstream>
 #include <iterator>
 #include <ostream>
@@ -25,7 +26,8 @@ constexpr char otherwise[] =
     "the beginning";
 constexpr char deck_kept[] = ", so its deck is kept; a run without --deck-only and --resume replaces it";
 
-/// What identifies a run of any ranks and length: its deck without the lines that depend on these.
+/// What identifies a run of any ranks and length: its deck without the lines that depend on these, and
+/// without those that make folders, in which versions differ.
 std::string identity(const std::string& deck) {
   std::istringstream in(deck);
   std::string kept;
@@ -33,7 +35,9 @@ std::string identity(const std::string& deck) {
     const auto begins = [&](const std::string& start) { return line.rfind(start, 0) == 0; };
     const bool of_length = begins("run ") && line.find(" upto ") != std::string::npos;
     const bool of_restarts = line.find(" ave/histo ") != std::string::npos;
-    if (!begins("processors ") && !begins("thermo ") && !of_length && !of_restarts) kept += line + '\n';
+    const bool of_folder = begins("shell mkdir ");
+    if (!begins("processors ") && !begins("thermo ") && !of_length && !of_restarts && !of_folder)
+      kept += line + '\n';
   }
   return kept;
 }
@@ -41,6 +45,12 @@ std::string identity(const std::string& deck) {
 std::string read_text(const fs::path& file) {
   std::ifstream in(file);
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+/// Whether the deck in the folder begins with this restart file, which then is another run's.
+bool begins_deck(const CaseFolder& folder, const NumberedFile& restart) {
+  const std::string command = "read_restart restart." + std::to_string(restart.step) + '\n';
+  return read_text(folder.deck()).find(command) != std::string::npos;
 }
 
 /// Throws std::runtime_error, which ends with `hence`, when the run in the folder has another deck, or none.
@@ -129,11 +139,24 @@ std::optional<long> resumable(const CaseFolder& folder, const DemPlan& plan, con
   return step;
 }
 
-void require_deck_of_run(const CaseFolder& folder, const std::string& deck) {
+bool require_deck_of_run(const CaseFolder& folder, const std::string& deck) {
   const bool complete = fs::exists(folder.run_file());
-  const bool begun =
-      fs::exists(folder.deck()) && (!find_restarts(folder).empty() || !find_dumps(folder).empty());
+  const auto restarts = find_restarts(folder);
+  const bool has_own = std::any_of(restarts.begin(), restarts.end(), [&](const NumberedFile& restart) {
+    return !begins_deck(folder, restart);
+  });
+  const bool begun = fs::exists(folder.deck()) && (has_own || !find_dumps(folder).empty());
   if (complete || begun) require_same_run(folder, deck, deck_kept);
+  return complete || begun;
+}
+
+void prepare_deck_alone(const CaseFolder& folder, const std::string& deck,
+                        const std::optional<LastState>& state) {
+  // That of an earlier deck of which nothing was run would be taken for one of a run
+  if (!require_deck_of_run(folder, deck))
+    for (const NumberedFile& restart : find_restarts(folder))
+      if (begins_deck(folder, restart)) fs::remove(restart.file);
+  if (state) take_restart(*state, folder);
 }
 
 }  // namespace millfoam::dem_driver

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "dem_driver/case_folder.hpp"
+#include "dem_driver/continued_run.hpp"
 #include "dem_driver/dem_plan.hpp"
 
 namespace millfoam::dem_driver {
@@ -26,7 +27,16 @@ std::optional<long> resumable(const CaseFolder& folder, const DemPlan& plan, con
                               std::ostream& out);
 
 /// Throws std::runtime_error when the folder has files of a run with another deck, or a complete run without
-/// one: a deck that is written alone, without a run, would give these files another identity.
-void require_deck_of_run(const CaseFolder& folder, const std::string& deck);
+/// one: a deck that is written alone, without a run, would give these files another identity. Returns whether
+/// the folder has files of a run.
+bool require_deck_of_run(const CaseFolder& folder, const std::string& deck);
+
+/// Prepares the folder for a deck that is written alone, to be run by hand.
+/// @param folder  of the case; its folder `dem` must exist
+/// @param deck  that will be written
+/// @param state  with whose restart file the deck begins, which is put into `dem`; nothing: with none
+/// Throws as require_deck_of_run and take_restart.
+void prepare_deck_alone(const CaseFolder& folder, const std::string& deck,
+                        const std::optional<LastState>& state);
 
 }  // namespace millfoam::dem_driver

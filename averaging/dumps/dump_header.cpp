@@ -58,7 +58,7 @@ DumpBox read_box(TextLines& lines, std::string_view flags) {
   for (std::string_view word = take_word(flags); !word.empty(); word = take_word(flags))
     words.push_back(word);
   for (std::size_t axis = 0; axis < 3 && words.size() >= 3; ++axis)
-    box.periodic[axis] = words[words.size() - 3 + axis] == "pp";
+    box.flags[axis] = words[words.size() - 3 + axis];
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const std::string_view line = next_line(lines, "the bounds of the box along x, y and z");
     std::string_view rest = line;

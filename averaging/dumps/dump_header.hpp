@@ -12,10 +12,14 @@ namespace millfoam::averaging {
 
 /// The box of a dump.
 struct DumpBox {
-  std::array<double, 3> lower{},   ///< least x, y, z, m
-      upper{};                     ///< largest x, y, z, m
-  bool tilted = false;             ///< not along x, y and z
-  std::array<bool, 3> periodic{};  ///< along x, y, z: flags `pp` of the item's name; false without flags
+  std::array<double, 3> lower{},  ///< least x, y, z, m
+      upper{};                    ///< largest x, y, z, m
+  bool tilted = false;            ///< not along x, y and z
+  /// Of its two ends along x, y and z, out of the item's name: `pp` where the balls repeat, `ff`, …; empty
+  /// where the name has none.
+  std::array<std::string, 3> flags{};
+  /// Whether the balls are known to repeat along x, y and z.
+  std::array<bool, 3> periodic() const { return {flags[0] == "pp", flags[1] == "pp", flags[2] == "pp"}; }
 };
 
 /// The part of a dump before its particles.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "averaging/files/hdf5_io.hpp"
 
+#include <algorithm>
 #include <functional>
 #include <numeric>
 
@@ -166,10 +167,24 @@ std::vector<int> read_int_attribute(hid_t object, const std::string& name, std::
   return read_number_attribute<int>(object, name, count, H5T_NATIVE_INT);
 }
 
+std::vector<hsize_t> chunk_of_row(const std::vector<hsize_t>& row, hsize_t number_size, hsize_t limit) {
+  std::vector<hsize_t> chunk = row;
+  hsize_t bytes = number_size * product(row);
+  for (std::size_t d = 0; d < row.size() && bytes >= limit; ++d) {
+    const hsize_t layer = std::max<hsize_t>(bytes / row[d], 1);
+    const hsize_t most = std::max<hsize_t>((limit - 1) / layer, 1);  // layers in a chunk
+    const hsize_t parts = (row[d] + most - 1) / most;
+    chunk[d] = (row[d] + parts - 1) / parts;
+    bytes = chunk[d] * layer;
+  }
+  return chunk;
+}
+
 Handle create_rows(hid_t parent, const std::string& name, const std::vector<hsize_t>& row, hid_t type,
                    const std::string& units) {
   const std::string action = "create data set '" + name + "'";
-  std::vector<hsize_t> now = row, most = row, chunk = row;
+  std::vector<hsize_t> now = row, most = row;
+  std::vector<hsize_t> chunk = row.empty() ? row : chunk_of_row(row, H5Tget_size(type));
   now.insert(now.begin(), 0);
   most.insert(most.begin(), H5S_UNLIMITED);
   constexpr hsize_t numbers_per_chunk = 256;

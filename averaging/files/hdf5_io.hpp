@@ -40,6 +40,17 @@ std::vector<double> read_double_attribute(hid_t object, const std::string& name,
 /// The same, converted to whole numbers.
 std::vector<int> read_int_attribute(hid_t object, const std::string& name, std::size_t count);
 
+/// Chunks must stay below it, bytes: HDF5 counts their bytes with 32 bits.
+inline constexpr hsize_t chunk_limit = (hsize_t{1} << 32) - 1;
+
+/// Dimensions of the chunks of one row: the whole row, or where that reaches the limit, equal parts of it
+/// along its slowest dimensions.
+/// @param row  its dimensions, slowest first; at least one
+/// @param number_size  bytes of a number
+/// @param limit  bytes that a chunk stays below, more than those of a number
+std::vector<hsize_t> chunk_of_row(const std::vector<hsize_t>& row, hsize_t number_size,
+                                  hsize_t limit = chunk_limit);
+
 /// Creates an empty data set that grows along its first dimension.
 /// @param parent  file or group that it is made in
 /// @param name   of the data set
@@ -47,8 +58,8 @@ std::vector<int> read_int_attribute(hid_t object, const std::string& name, std::
 /// @param type   H5T_NATIVE_DOUBLE or H5T_NATIVE_INT64
 /// @param units  written as the attribute `units`
 ///
-/// A row with dimensions is one chunk, compressed (shuffle, deflate level 1: most voxels of a mill are
-/// empty).
+/// A row with dimensions is one chunk, or several of `chunk_of_row`, compressed (shuffle, deflate level 1:
+/// most voxels of a mill are empty).
 Handle create_rows(hid_t parent, const std::string& name, const std::vector<hsize_t>& row, hid_t type,
                    const std::string& units);
 

@@ -53,7 +53,7 @@ void DeformingMesh::begin_record(double time) {
     geometry_.move(points);
   } catch (const std::invalid_argument& error) {
     std::ostringstream message;
-    message << "at DEM time " << time << " s: " << error.what();
+    message << series_->path().string() << ": at DEM time " << time << " s: " << error.what();
     throw std::invalid_argument(message.str());
   }
   tree_.update();

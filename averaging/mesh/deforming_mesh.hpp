@@ -20,6 +20,7 @@ class MeshSeries {
   /// Throws as MeshReader.
   explicit MeshSeries(const std::filesystem::path& path);
 
+  const std::filesystem::path& path() const { return path_; }                 ///< of the file
   const MeshTopology& topology() const { return reader_.topology(); }         ///< the same at all times
   double begin() const { return reader_.time0() + reader_.times().front(); }  ///< DEM time, s
   double end() const { return reader_.time0() + reader_.times().back(); }     ///< DEM time, s
@@ -46,8 +47,8 @@ class DeformingMesh : public MovingMesh {
 
   std::unique_ptr<MovingMesh> clone() const override { return std::make_unique<DeformingMesh>(series_); }
 
-  /// Throws as `MeshSeries::points_at`, and std::invalid_argument naming the time and the cell when a cell is
-  /// turned inside out.
+  /// Throws as `MeshSeries::points_at`, and std::invalid_argument naming the file, the time and the cell when
+  /// a cell is turned inside out.
   void begin_record(double time) override;
 
   const MeshGeometry& geometry() const override { return geometry_; }

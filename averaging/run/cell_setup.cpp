@@ -51,6 +51,19 @@ std::unique_ptr<Deposition> by_method(DepositionMethod method, Arguments&&... ar
   return std::make_unique<Sampling>(std::forward<Arguments>(arguments)...);
 }
 
+/// Does something with a mesh. What it throws, std::invalid_argument, names the mesh and what was asked of
+/// it.
+/// @param option  or options that give the mesh, with their values
+/// @param action  without arguments
+template <typename Action>
+auto naming_mesh(const std::string& option, Action&& action) {
+  try {
+    return action();
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(option + ": " + error.what());
+  }
+}
+
 std::vector<double> voxel_volumes(const Grid& grid) {
   std::vector<double> volumes(cell_count(grid));
   for (std::size_t c = 0; c < volumes.size(); ++c) volumes[c] = cell_volume(grid, c);
@@ -97,7 +110,9 @@ Walls moving_walls(const std::variant<BoxGrid, CylinderGrid>& grid, const Averag
       throw std::invalid_argument("--inside " + request.walls[0].string() +
                                   " gives points at several times, expected walls that keep their shape");
     }
-    surface = boundary_surface(MeshGeometry(mesh.topology(), mesh.read_points(0)));
+    surface = naming_mesh("--inside " + request.walls[0].string(), [&] {
+      return boundary_surface(MeshGeometry(mesh.topology(), mesh.read_points(0)));
+    });
     time = mesh.time0() + mesh.times().front();
   } else {
     for (const std::filesystem::path& file : request.walls) {
@@ -240,15 +255,19 @@ CellSetup set_up_cells(const MeshRequest& request, const AverageRequest& whole, 
   std::unique_ptr<MovingMesh> mesh;
   MeshCells cells;
   const double time = file.time0() + file.times().front();
+  const std::string name = "--mesh " + request.file.string();
+  const std::string with_period = request.period_z ? name + " --period " + shown(*request.period_z) : name;
   if (deforms) {
-    mesh = std::make_unique<DeformingMesh>(std::make_shared<MeshSeries>(request.file));
+    mesh = naming_mesh(
+        name, [&] { return std::make_unique<DeformingMesh>(std::make_shared<MeshSeries>(request.file)); });
     mesh->begin_record(time);
     cells = mesh_cells(mesh->geometry());
     cells.motion = "points over time";
   } else {
     const std::vector<std::string> motion = motion_of(request, settings, note);
-    mesh = std::make_unique<RigidMesh>(prepare(file.topology(), file.read_points(0)), parse_motion(motion),
-                                       time);
+    const std::shared_ptr<const Motion> turning = parse_motion(motion);
+    PreparedMesh prepared = naming_mesh(name, [&] { return prepare(file.topology(), file.read_points(0)); });
+    mesh = std::make_unique<RigidMesh>(std::move(prepared), turning, time);
     cells = mesh_cells(mesh->geometry());
     cells.motion = joined(motion);
   }
@@ -258,7 +277,8 @@ CellSetup set_up_cells(const MeshRequest& request, const AverageRequest& whole, 
   CellSetup setup{std::move(cells), nullptr, {}, nullptr, nullptr, method_in_words(whole), 0, {}};
   setup.limits.solidity_cap = whole.solidity_cap;
   if (whole.solidity_cap) {
-    setup.limits.neighbours = neighbours(mesh->geometry(), request.period_z);
+    setup.limits.neighbours =
+        naming_mesh(with_period, [&] { return neighbours(mesh->geometry(), request.period_z); });
     setup.limits.place = [centres = mesh->geometry().centres()](std::size_t cell) {
       const Eigen::Vector3d& c = centres[cell];
       return place_in_words("cell " + std::to_string(cell), {c.x(), c.y(), c.z()});
@@ -266,11 +286,15 @@ CellSetup set_up_cells(const MeshRequest& request, const AverageRequest& whole, 
   }
   if (request.smoothed) {
     setup.smoothing = request.smoothing > 0 ? request.smoothing : usual_smoothing * settings.sauter_diameter;
-    setup.diffusion = std::make_shared<MeshDiffusion>(mesh->geometry(), setup.smoothing, request.period_z);
+    setup.diffusion = naming_mesh(with_period, [&] {
+      return std::make_shared<MeshDiffusion>(mesh->geometry(), setup.smoothing, request.period_z);
+    });
     note("smoothing over a width of " + shown(setup.smoothing) + " m");
   }
-  setup.deposition = by_method<ExactMeshDeposition, SampledMeshDeposition>(
-      whole.method, std::move(mesh), whole.template_points, request.period_z);
+  setup.deposition = naming_mesh(with_period, [&] {
+    return by_method<ExactMeshDeposition, SampledMeshDeposition>(whole.method, std::move(mesh),
+                                                                 whole.template_points, request.period_z);
+  });
   return setup;
 }
 

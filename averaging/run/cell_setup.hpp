@@ -35,7 +35,8 @@ struct CellSetup {
 };
 
 /// Prepares all that does not depend on the records. `note` gets sentences on what was taken for granted.
-/// Throws std::invalid_argument for settings that do not go together, MeshFileError, SurfaceError.
+/// Throws std::invalid_argument for settings that do not go together, and for a mesh or a period that cannot
+/// be used, naming the option and the mesh's file; MeshFileError, SurfaceError.
 CellSetup set_up(const AverageRequest& request, const RunSettings& settings,
                  const std::function<void(const std::string&)>& note);
 

@@ -110,14 +110,21 @@ void require_period_of(const AverageRequest& request, const DumpBox& box, const 
   const Spans spans = spans_of(request.grid);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto& span = spans[axis];
-    if (!span || !span->repeats || !box.periodic[axis] || is_period(span->length, box, axis)) continue;
+    if (!span || !span->repeats || box.flags[axis].empty()) continue;
+    const bool periodic = box.periodic()[axis];
+    if (periodic && is_period(span->length, box, axis)) continue;
     const std::string letter(1, "xyz"[axis]);
     const bool mesh = std::holds_alternative<MeshRequest>(request.grid);
     std::ostringstream message;
     message.precision(12);
     message << (mesh ? "--period" : "--periodic " + letter) << ": the cells repeat after " << span->length
-            << " m along " << letter << ", but the balls of " << name << " after " << period_of(box, axis)
-            << " m (from " << box.lower[axis] << " to " << box.upper[axis] << " m); expected the same length";
+            << " m along " << letter << ", but the balls of " << name;
+    if (periodic)
+      message << " after " << period_of(box, axis) << " m (from " << box.lower[axis] << " to "
+              << box.upper[axis] << " m); expected the same length";
+    else
+      message << " do not: the flags of their box along " << letter << " are " << box.flags[axis]
+              << "; expected pp, or cells that do not repeat";
     throw std::invalid_argument(message.str());
   }
 }
@@ -131,7 +138,7 @@ std::string missing_period(const AverageRequest& request, const Grid& grid, cons
   if (mesh != nullptr && !spans[2]) spans[2] = height_of(*mesh);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto& span = spans[axis];
-    if (!span || span->repeats || !box.periodic[axis] || !is_period(span->length, box, axis)) continue;
+    if (!span || span->repeats || !box.periodic()[axis] || !is_period(span->length, box, axis)) continue;
     const std::string letter(1, "xyz"[axis]);
     std::ostringstream sentence;
     sentence << "warning: " << 100 * outside

@@ -52,10 +52,11 @@ class VolumeCheck {
   bool noted_ = false;
 };
 
-/// Throws std::invalid_argument for a grid or mesh that repeats after another length than the balls do.
+/// Throws std::invalid_argument for a grid or mesh that repeats after another length than the balls do, or
+/// along an axis along which the flags of their box say that they do not. Without flags that is not known.
 /// @param request  of the averages
-/// @param box  of the dumps
-/// @param name  of the dump, for the message
+/// @param box  of the dumps, or of the run that makes the balls
+/// @param name  of the dump or the run, for the message
 void require_period_of(const AverageRequest& request, const DumpBox& box, const std::string& name);
 
 /// The warning that balls lie outside a grid that spans the dumps' period and does not repeat; empty where it

@@ -10,6 +10,7 @@
 
 #include "averaging/files/solids_file.hpp"
 #include "averaging/run/checkpoint.hpp"
+#include "averaging/run/dump_checks.hpp"
 #include "averaging/run/endless_windows.hpp"
 #include "averaging/run/grid_check.hpp"
 #include "averaging/run/solids_output.hpp"
@@ -65,6 +66,23 @@ void leave_out_before(double time, double timestep, WindowPlan& plan) {
   plan.windows.erase(plan.windows.begin(), first);
   if (left_out > 0)
     plan.notes.push_back(std::to_string(left_out) + " windows begin" + words.str() + ": they are left out");
+}
+
+/// The windows of each series of the files.
+std::vector<WindowPlan> plans_of_files(const AverageRequest& request, const LiveRun& run,
+                                       const LiveEnd& end) {
+  std::vector<WindowPlan> plans = plan_live(request, run, end.step);
+  if (end.steady_from)
+    for (WindowPlan& plan : plans) leave_out_before(*end.steady_from, run.settings.timestep, plan);
+  return plans;
+}
+
+/// The header of the file of a series.
+SolidsHeader header_of(const AverageRequest& request, std::size_t number, const LiveRun& run,
+                       const CellSetup& setup, const LiveEnd& end, const WindowPlan& plan) {
+  const double time0 = static_cast<double>(plan.windows.front().begin) * run.settings.timestep;
+  return solids_header(request, request.windows[number], run.settings, setup, end.metadata, time0,
+                       end.program);
 }
 
 }  // namespace
@@ -209,12 +227,11 @@ std::vector<SolidsSummary> finish_live(const AverageRequest& request, const Live
                                        const std::function<void(const std::string&)>& note) {
   const std::vector<FileLock> locks = lock_outputs(request);
   const CellSetup setup = set_up(request, run.settings, ignore);
-  std::vector<WindowPlan> plans = plan_live(request, run, end.step);
+  const std::vector<WindowPlan> plans = plans_of_files(request, run, end);
   const Checkpoint state = state_at(files, id, end.step);
   std::vector<SolidsSummary> summaries;
   for (std::size_t s = 0; s < request.windows.size(); ++s) {
-    WindowPlan& plan = plans[s];
-    if (end.steady_from) leave_out_before(*end.steady_from, run.settings.timestep, plan);
+    const WindowPlan& plan = plans[s];
     for (const std::string& sentence : plan.notes) note(sentence);
     const EndlessWindows windows(request, request.windows[s], run.settings.timestep, run.begin);
     const WindowRecorder recorder = recorder_at(files, s, setup, id, &state);
@@ -232,13 +249,34 @@ std::vector<SolidsSummary> finish_live(const AverageRequest& request, const Live
       average.time.records = records;
       return average;
     };
-    const double time0 = static_cast<double>(plan.windows.front().begin) * run.settings.timestep;
-    const SolidsHeader header =
-        solids_header(request, request.windows[s], run.settings, setup, end.metadata, time0, end.program);
-    summaries.push_back(
-        write_solids(request.windows[s].output, setup.grid, header, plan.windows.size(), window));
+    summaries.push_back(write_solids(request.windows[s].output, setup.grid,
+                                     header_of(request, s, run, setup, end, plan), plan.windows.size(),
+                                     window));
+  }
+  if (end.box) {
+    const std::string sentence =
+        missing_period(request, setup.grid, *end.box, largest_share(summaries.front(), &Ledger::outside));
+    if (!sentence.empty()) note(sentence);
   }
   return summaries;
+}
+
+bool are_finished(const AverageRequest& request, const LiveRun& run, const LiveEnd& end) {
+  if (!end.metadata || !are_written(request, *end.metadata)) return false;
+  // Their fingerprint covers the rest
+  if (!request.mill_averages.empty()) return true;
+  const CellSetup setup = set_up(request, run.settings, ignore);
+  const std::vector<WindowPlan> plans = plans_of_files(request, run, end);
+  for (std::size_t s = 0; s < plans.size(); ++s) {
+    std::vector<TimeWindow> windows;
+    for (const WindowSpan& span : plans[s].windows) {
+      windows.push_back(time_of(span, run.settings.timestep));
+      windows.back().records = static_cast<long long>(span.records);
+    }
+    const SolidsHeader header = header_of(request, s, run, setup, end, plans[s]);
+    if (!holds_averages(request.windows[s].output, header, setup.grid, windows)) return false;
+  }
+  return true;
 }
 
 }  // namespace millfoam::averaging

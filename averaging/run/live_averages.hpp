@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "averaging/dumps/dump_header.hpp"
 #include "averaging/dumps/run_metadata.hpp"
 #include "averaging/run/average_request.hpp"
 #include "averaging/run/cell_setup.hpp"
@@ -94,18 +95,25 @@ class LiveAverages {
 
 /// What `finish_live` writes.
 struct LiveEnd {
-  long long step = 0;                   ///< of the run's last record
-  std::optional<RunMetadata> metadata;  ///< of the run, for the files' header
-  std::optional<double> steady_from;    ///< DEM time, s: windows that begin before are left out
-  std::string program;                  ///< that writes the files, with its version
+  long long step = 0;                         ///< of the run's last record
+  std::optional<RunMetadata> metadata;        ///< of the run, for the files' header
+  std::optional<double> steady_from;          ///< DEM time, s: windows that begin before are left out
+  std::string program;                        ///< that writes the files, with its version
+  std::optional<DumpBox> box = std::nullopt;  ///< of the run, for `missing_period`; nothing: not known
 };
 
 /// Writes the solids files of a run that has come to its end, as `average_run` does, and returns their
 /// summaries. What LiveAverages keeps of the run stays as it is. `note` gets sentences on windows that are
-/// not full or left out. Throws WindowError when no window is left, and SolidsFileError.
+/// not full or left out, and the warning of `missing_period`. Throws WindowError when no window is left, and
+/// SolidsFileError.
 std::vector<SolidsSummary> finish_live(const AverageRequest& request, const LiveRun& run,
                                        const LiveFiles& files, const std::string& id, const LiveEnd& end,
                                        const std::function<void(const std::string&)>& note);
+
+/// Whether the solids files that `finish_live` would write are there (`are_written`) and hold these averages:
+/// the mill's by their fingerprint, others by their cells, method and windows. Walls that others than the
+/// mill's averages take are compared by their width alone. Throws as `set_up`, and WindowError.
+bool are_finished(const AverageRequest& request, const LiveRun& run, const LiveEnd& end);
 
 /// The windows of each series that a run to the time-step `end` gives. Throws WindowError.
 std::vector<WindowPlan> plan_live(const AverageRequest& request, const LiveRun& run, long long end);

@@ -34,11 +34,21 @@ SolidsHeader solids_header(const AverageRequest& request, const WindowsRequest& 
                            const std::string& program);
 
 /// Whether all files that a request asks of a run are there (solids files, their .xdmf and their summaries),
-/// each written after the run was complete. Runs of equal plans have one id, so that this alone does not
-/// tell.
+/// each written after the run was complete, and none with another fingerprint of the mill's averages than the
+/// request. Runs of equal plans have one id, so that this alone does not tell.
 /// @param request  of the averages
 /// @param run  of run.json
 bool are_written(const AverageRequest& request, const RunMetadata& run);
+
+/// Whether a solids file holds averages of these settings on these cells in these windows. Numbers may differ
+/// by 1e-9 of their size. The program that wrote the file, and what it holds of the dry run, are not
+/// compared. Throws SolidsFileError where it cannot be read.
+/// @param file  the solids file
+/// @param header  that the averages would have
+/// @param grid  of their cells
+/// @param windows  begins, ends and records of their windows
+bool holds_averages(const std::filesystem::path& file, const SolidsHeader& header, const Grid& grid,
+                    const std::vector<TimeWindow>& windows);
 
 /// Writes a solids file, its .xdmf and its summary in JSON, which it returns. Throws SolidsFileError.
 /// @param output  the solids file

@@ -42,13 +42,12 @@ averaging::LiveRun run_of(const meshing::Mill& mill, const DemPlan& plan) {
   return run;
 }
 
-void require_different_outputs(const std::vector<averaging::LiveRequest>& requests) {
-  std::set<fs::path> outputs;
-  for (const averaging::LiveRequest& averages : requests)
-    for (const averaging::WindowsRequest& windows : averages.request.windows)
-      if (!outputs.insert(fs::weakly_canonical(windows.output)).second)
-        throw std::invalid_argument("--average: " + windows.output.string() +
-                                    " would be written twice, expected another file for each: give -o FILE");
+/// Throws for a file that another request is to write; `outputs` are theirs.
+void require_other_outputs(const averaging::AverageRequest& request, std::set<fs::path>& outputs) {
+  for (const averaging::WindowsRequest& windows : request.windows)
+    if (!outputs.insert(fs::weakly_canonical(windows.output)).second)
+      throw std::invalid_argument(windows.output.string() +
+                                  " would be written twice, expected another file for each: give -o FILE");
 }
 
 /// Throws as Deposition where cells are not known at the first or the last record of a window: cells that
@@ -73,30 +72,34 @@ AveragesOfRun::AveragesOfRun(const meshing::MillDescription& description, const 
                              const std::map<std::string, std::string>& walls,
                              const std::vector<std::string>& options, DemPlan& plan, std::ostream& out)
     : mill_(description.mill), folder_(folder), walls_(walls), plan_(plan) {
-  std::vector<std::string> texts = options;
-  if (mill_.averages.live) texts.insert(texts.begin(), "");
-  if (texts.empty() && !mill_.dem.dumps)
+  texts_ = options;
+  if (mill_.averages.live) texts_.insert(texts_.begin(), "");
+  if (texts_.empty() && !mill_.dem.dumps)
     throw meshing::KeyError("dem.dumps", "no",
                             "yes, or averages.live: yes: without dumps the balls cannot be averaged later");
   order_.run = run_of(mill_, plan);
-  for (const std::string& text : texts)
+  for (const std::string& text : texts_)
     requests_.push_back(averaging::live_request(description, text, folder.root.string(), plan.begin_time(),
                                                 plan.duration(), plan.step.value));
-  require_different_outputs(requests_);
+  std::set<fs::path> outputs;
+  for (std::size_t n = 0; n < requests_.size(); ++n)
+    averaging::naming_options(texts_[n], [&] { require_other_outputs(requests_[n].request, outputs); });
   require_walls();
   plan.averages_bytes = 0;
-  for (const averaging::LiveRequest& averages : requests_) {
-    const averaging::AverageRequest& request = averages.request;
-    for (const averaging::WindowsRequest& windows : request.windows) averaging::xdmf_path(windows.output);
-    averaging::lock_outputs(request);
-    const auto setup = averaging::set_up(request, order_.run.settings,
-                                         [&](const std::string& sentence) { out << sentence << '\n'; });
-    const auto plans = plan_live(request, order_.run, plan.end_step());
-    require_cells(*setup.deposition, plans, order_.run);
-    plan.averages_bytes += averaging::journal_bytes(setup, plans);
-    plan.averages.push_back(averages_id(request));
-    order_.averages.push_back({plan.averages.back(), request});
-  }
+  for (std::size_t n = 0; n < requests_.size(); ++n)
+    averaging::naming_options(texts_[n], [&] { order(requests_[n].request, plan, out); });
+}
+
+void AveragesOfRun::order(const averaging::AverageRequest& request, DemPlan& plan, std::ostream& out) {
+  for (const averaging::WindowsRequest& windows : request.windows) averaging::xdmf_path(windows.output);
+  averaging::lock_outputs(request);
+  const auto setup = averaging::set_up(request, order_.run.settings,
+                                       [&](const std::string& sentence) { out << sentence << '\n'; });
+  const auto plans = plan_live(request, order_.run, plan.end_step());
+  require_cells(*setup.deposition, plans, order_.run);
+  plan.averages_bytes += averaging::journal_bytes(setup, plans);
+  plan.averages.push_back(averages_id(request));
+  order_.averages.push_back({plan.averages.back(), request});
 }
 
 void AveragesOfRun::require_walls() const {
@@ -123,17 +126,19 @@ bool AveragesOfRun::finish_one(std::size_t number, bool keep, std::ostream& out)
   end.step = plan_.end_step();
   end.metadata = averaging::read_run_metadata(folder_.dumps());
   end.program = std::string("millDem ") + version();
+  end.box = averaging::box_of_run(mill_);
+  averaging::SteadyStart steady;
+  if (averages.steady) {
+    steady = averaging::steady_start(folder_.results());
+    end.steady_from = steady.time;
+  }
   bool passes = true;
-  if (keep && averaging::are_written(request, *end.metadata)) {
+  if (keep && averaging::are_finished(request, order_.run, end)) {
     for (const averaging::WindowsRequest& windows : request.windows)
       passes = judge(averaging::read_ledgers(windows.output), averages.tolerance, out) && passes;
     return passes;
   }
-  if (averages.steady) {
-    const averaging::SteadyStart steady = averaging::steady_start(folder_.results());
-    end.steady_from = steady.time;
-    if (!steady.warning.empty()) out << steady.warning << '\n';
-  }
+  if (!steady.warning.empty()) out << steady.warning << '\n';
   for (const averaging::SolidsSummary& summary : averaging::finish_live(
            request, order_.run, averages_files(folder_.dem(), number), plan_.averages[number], end,
            [&](const std::string& sentence) { out << sentence << '\n'; })) {
@@ -146,7 +151,10 @@ bool AveragesOfRun::finish_one(std::size_t number, bool keep, std::ostream& out)
 void AveragesOfRun::finish(bool keep, std::ostream& out) const {
   bool passes = true;
   require_walls();
-  for (std::size_t n = 0; n < requests_.size(); ++n) passes = finish_one(n, keep, out) && passes;
+  for (std::size_t n = 0; n < requests_.size(); ++n) {
+    const bool one = averaging::naming_options(texts_[n], [&] { return finish_one(n, keep, out); });
+    passes = one && passes;
+  }
   if (!passes) throw std::runtime_error("the averages are beyond their --tolerance, see above");
 }
 

@@ -161,7 +161,7 @@ void run(const Options& options, const meshing::MillDescription& description) {
   }
   dem_driver::print_plan(std::cout, mill, plan);
   if (options.deck_only) {
-    dem_driver::require_deck_of_run(folder, deck.str());
+    dem_driver::prepare_deck_alone(folder, deck.str(), state);
   } else {
     dem_driver::require_programs(plan, options.ranks);
     dem_driver::require_room(folder, plan, step.value_or(plan.begin));

@@ -43,13 +43,15 @@ class TemporaryFolder {
 };
 
 /// Text of a dump as LIGGGHTS writes it, with enough digits to read back the same numbers.
-inline std::string dump_text(long long step, const std::vector<Particle>& particles) {
+/// @param flags  of the ends of its box along x, y and z
+inline std::string dump_text(long long step, const std::vector<Particle>& particles,
+                             const std::string& flags = "mm mm pp") {
   std::ostringstream text;
   text.precision(17);
   text << "ITEM: TIMESTEP\n"
        << step << "\nITEM: NUMBER OF ATOMS\n"
-       << particles.size()
-       << "\nITEM: BOX BOUNDS mm mm pp\n-1 1\n-1 1\n0 1\nITEM: ATOMS id type x y z vx vy vz radius \n";
+       << particles.size() << "\nITEM: BOX BOUNDS " << flags
+       << "\n-1 1\n-1 1\n0 1\nITEM: ATOMS id type x y z vx vy vz radius \n";
   for (const Particle& p : particles) {
     text << p.id << " 1";
     for (const double value : p.position) text << ' ' << value;

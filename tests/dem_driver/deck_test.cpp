@@ -175,6 +175,18 @@ TEST(Deck, TheClockIsSetBackBeforeTheMillTurnsAndTheDumpsBegin) {
   EXPECT_GT(deck.find("dump balls"), reset);
 }
 
+TEST(Deck, TheFolderOfTheDumpsIsMadeByTheDeckWhichMayBeRunAlone) {
+  auto mill = small_mill();
+  const std::string deck = deck_of(mill);
+  EXPECT_TRUE(has_line(deck, "shell mkdir ../dumps"));
+  EXPECT_LT(deck.find("shell mkdir ../dumps"), deck.find("dump balls"));
+  std::ostringstream resumed;
+  write_resume_deck(resumed, mill, plan_dem(mill), {"shell"}, 1, 400);
+  EXPECT_TRUE(has_line(resumed.str(), "shell mkdir ../dumps"));
+  mill.dem.dumps = false;
+  EXPECT_FALSE(has_line(deck_of(mill), "shell mkdir ../dumps"));
+}
+
 TEST(Deck, TheTurningRunIsAWholeNumberOfDumpIntervals) {
   const auto mill = small_mill();
   const DemPlan plan = plan_dem(mill);

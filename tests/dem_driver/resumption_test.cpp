@@ -171,6 +171,12 @@ TEST_F(Resumption, ARunMayHaveOtherRanksAndAnotherLengthButNoOtherDeck) {
   expect_refused(plan_, "another mill.yaml", deck + "run 60\n");
 }
 
+TEST_F(Resumption, ADeckThatMakesOtherFoldersIsOfTheSameRun) {
+  run_to(plan_.restart_steps);
+  EXPECT_EQ(step(plan_, deck + "shell mkdir ../dumps\n"), plan_.restart_steps);
+  expect_refused(plan_, "another mill.yaml", deck + "shell mv a b\n");
+}
+
 TEST_F(Resumption, ACompleteRunIsNotMadeShorter) {
   complete_run();
   std::filesystem::remove(restart(plan_.end_step()));
@@ -218,6 +224,48 @@ TEST_F(Resumption, ADeckAloneIsOneOfTheRunThatIsThere) {
   EXPECT_NE(refusal(other_deck), "") << "there is a complete run without dumps";
   std::filesystem::remove(folder_.deck());
   EXPECT_NE(refusal(deck), "") << "there is a complete run without a deck";
+}
+
+/// A deck that begins with the last state of another run, at a step.
+std::string deck_from(long begin) {
+  return "read_restart restart." + std::to_string(begin) + '\n' + deck;
+}
+
+TEST_F(Resumption, ADeckAloneGetsTheRestartFileWithWhichItBegins) {
+  const auto state_at = [&](long begin, const std::string& text) {
+    const auto file = temporary_.path() / ("other." + std::to_string(begin));
+    write(file, text);
+    return LastState{file, begin, "id"};
+  };
+  const auto write_alone = [&](const std::string& text, const std::optional<LastState>& state) {
+    prepare_deck_alone(folder_, text, state);
+    write(folder_.deck(), text);
+  };
+  const long begin = plan_.restart_steps;
+  write_alone(deck_from(2 * begin), state_at(2 * begin, "one"));
+  EXPECT_EQ(read(restart(2 * begin)), "one");
+  // No run has begun: another deck takes its place, and its restart file that of the deck before
+  write_alone(deck_from(begin), state_at(begin, "two"));
+  EXPECT_EQ(read(restart(begin)), "two");
+  EXPECT_FALSE(std::filesystem::exists(restart(2 * begin)));
+  write_alone(deck, std::nullopt);
+  EXPECT_FALSE(std::filesystem::exists(restart(begin)));
+}
+
+TEST_F(Resumption, ADeckAloneTakesNoRestartFileOfARunAway) {
+  const long begin = plan_.restart_steps;
+  write(folder_.deck(), deck_from(begin));
+  write(restart(2 * begin), "the run's");
+  const auto file = temporary_.path() / "other";
+  write(file, "the other's");
+  prepare_deck_alone(folder_, deck_from(begin), LastState{file, begin, "id"});
+  EXPECT_EQ(read(restart(begin)), "the other's");
+  EXPECT_EQ(read(restart(2 * begin)), "the run's");
+  EXPECT_NE(message_of([&] { prepare_deck_alone(folder_, other_deck, std::nullopt); }), "");
+  // Without its deck it cannot be resumed, but it is not removed
+  std::filesystem::remove(folder_.deck());
+  prepare_deck_alone(folder_, other_deck, std::nullopt);
+  EXPECT_EQ(read(restart(2 * begin)), "the run's");
 }
 
 }  // namespace

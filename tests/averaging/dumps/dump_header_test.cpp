@@ -30,14 +30,17 @@ TEST(DumpHeader, CountsThatCannotBeAreRefused) {
 TEST(DumpHeader, FlagsOfTheBoxSayAlongWhichAxesItRepeats) {
   const TemporaryFolder folder;
   std::string text = dump_text(1, random_balls(2, 1));
-  const auto periodic_of = [&](const std::string& flags) {
+  const auto box_of = [&](const std::string& flags) {
     std::string other = text;
     other.replace(other.find(" mm mm pp"), 9, flags);
-    return read_dump_header(folder.write("dump.txt", other)).box->periodic;
+    return *read_dump_header(folder.write("dump.txt", other)).box;
   };
+  const auto periodic_of = [&](const std::string& flags) { return box_of(flags).periodic(); };
   EXPECT_EQ(periodic_of(" ff mm pp"), (std::array<bool, 3>{false, false, true}));
   EXPECT_EQ(periodic_of(" xy xz yz pp ff pp"), (std::array<bool, 3>{true, false, true}));
   EXPECT_EQ(periodic_of(""), (std::array<bool, 3>{}));
+  EXPECT_EQ(box_of(" xy xz yz pp ff fs").flags, (std::array<std::string, 3>{"pp", "ff", "fs"}));
+  EXPECT_EQ(box_of("").flags, (std::array<std::string, 3>{})) << "none is not the same as others than pp";
 }
 
 TEST(DumpHeader, AnItemThatIsThereTwiceIsRefused) {

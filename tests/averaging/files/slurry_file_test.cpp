@@ -68,6 +68,25 @@ TEST_F(SlurryFile, SegmentIsReadBackAsItWas) {
   EXPECT_EQ(read.components, segment.components);
 }
 
+TEST(ChunksOfRows, AreWholeRowsBelowTheLimitAndEqualPartsAboveIt) {
+  using Sizes = std::vector<hsize_t>;
+  EXPECT_EQ(hdf5::chunk_of_row({1000, 21}, 8), (Sizes{1000, 21}));
+  EXPECT_EQ(hdf5::chunk_of_row({10, 3}, 8, 241), (Sizes{10, 3}));
+  EXPECT_EQ(hdf5::chunk_of_row({10, 3}, 8, 240), (Sizes{5, 3}));
+  EXPECT_EQ(hdf5::chunk_of_row({10, 3}, 8, 100), (Sizes{4, 3}));
+  EXPECT_EQ(hdf5::chunk_of_row({10, 3}, 8, 20), (Sizes{1, 2})) << "a layer of it is too large, too";
+  // 21 numbers of a voxel with balls
+  EXPECT_EQ(hdf5::chunk_of_row({26000000, 21}, 8), (Sizes{13000000, 21}));
+}
+
+TEST_F(SlurryFile, ARowOfMoreThanFourGigabytesHasChunksThatHdf5Takes) {
+  const hdf5::Handle file = hdf5::create_file(folder / "large.h5");
+  const hsize_t most_voxels = 170000000;
+  const hdf5::Handle rows =
+      hdf5::create_rows(file.get(), "components", {most_voxels, 21}, H5T_NATIVE_DOUBLE, "SI");
+  EXPECT_EQ(hdf5::dimensions(file.get(), "components"), (std::vector<hsize_t>{0, most_voxels, 21}));
+}
+
 TEST_F(SlurryFile, WindowsAreMeansWeightedByTimeAndTheirVelocityBySlurry) {
   // Half of the first window has a share of 0.2 at 1 m/s, half 0.6 at 3 m/s
   const SlurryHeader header{1.5, 1.0, 1.0};

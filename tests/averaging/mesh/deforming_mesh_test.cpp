@@ -32,7 +32,7 @@ TEST_F(DeformingDrum, ACellTurnedInsideOutIsRefusedWithTheTime) {
   DeformingMesh bad(std::make_shared<const MeshSeries>(folder / "bad.h5"));
   EXPECT_NO_THROW(bad.begin_record(0.1));
   expect_named(message_of<std::invalid_argument>([&] { bad.begin_record(0.75); }),
-               {"0.75 s", "cell 0", "volume"});
+               {(folder / "bad.h5").string() + ": at DEM time 0.75 s", "cell 0", "volume"});
 }
 
 }  // namespace

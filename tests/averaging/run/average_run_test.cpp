@@ -408,8 +408,26 @@ TEST_F(AverageRun, AGridThatRepeatsAfterAnotherLengthThanTheDumpsIsRefused) {
   CylinderGrid rings({0, 1}, {0, 2}, {2, 2, 2}, true);
   request.grid = CylinderRequest(rings);
   expect_named(message_of<std::invalid_argument>([&] { run(); }), {"--periodic z", "after 2 m along z"});
-  request.grid = BoxGrid({0, 0, 0}, {2, 1, 1 + 1e-6}, {2, 1, 1}, {true, false, true});
+  request.grid = BoxGrid({0, 0, 0}, {2, 1, 1 + 1e-6}, {2, 1, 1}, {false, false, true});
   run();
+}
+
+TEST_F(AverageRun, AGridThatRepeatsWhereTheDumpsDoNotIsRefused) {
+  const auto write_first = [&](const std::string& flags) {
+    folder.write("dump0.txt",
+                 dump_text(0, {{1, {0.2, 0.5, 0.5}, {1, 0, 0}, 0.1}, {2, {0, 5, 0}, {}, 0.05}}, flags));
+  };
+  request.grid = BoxGrid({0, 0, 0}, {2, 1, 1}, {2, 1, 1}, {true, false, true});
+  expect_named(
+      message_of<std::invalid_argument>([&] { run(); }),
+      {"--periodic x: the cells repeat after 2 m along x, but the balls of ",
+       "dump0.txt do not: the flags of their box along x are mm; expected pp, or cells that do not"});
+  for (const char* flags : {"pp mm pp", ""}) {  // without flags it is not known
+    write_first(flags);
+    EXPECT_NO_THROW(run()) << flags;
+  }
+  write_first("pp mm ff");
+  expect_named(message_of<std::invalid_argument>([&] { run(); }), {"--periodic z", "along z are ff"});
 }
 
 TEST_F(AverageRun, BallsBeyondAGridThatDoesNotRepeatAsTheDumpsDoAreTold) {
@@ -523,6 +541,47 @@ TEST_F(MeshRun, ATableThatEndsBeforeTheLastDumpIsRefusedBeforeTheWork) {
   expect_named(message_of<std::out_of_range>([&] { run(); }),
                {(folder / "dump14900.txt").string() + ": " + (folder / "table.txt").string() +
                 ": time 1.49 s is outside the table of the motion, which goes from 0 to 1.2 s"});
+}
+
+TEST_F(MeshRun, AMeshWithACellTurnedInsideOutIsNamedWithItsOption) {
+  for (Eigen::Vector3d& point : mesh.points) point.x() = -point.x();
+  MeshWriter writer(folder / "bad.h5", mesh.topology, 0);
+  writer.append(0, mesh.points);
+  writer.finish();
+  const std::string bad = (folder / "bad.h5").string();
+  cells.file = bad;
+  request_cells();
+  expect_named(message_of<std::invalid_argument>([&] { run(); }),
+               {"--mesh " + bad + ": mesh: cell 0 has the volume -1 m3, expected a positive one"});
+  request.grid = BoxGrid({0, 0, 0}, {2, 1, 1}, {2, 1, 1});
+  request.walls = {bad};
+  expect_named(message_of<std::invalid_argument>([&] { run(); }), {"--inside " + bad + ": mesh: cell 0"});
+}
+
+TEST_F(MeshRun, APeriodThatIsNotTheMeshsIsNamedWithItsOptionAndTheMesh) {
+  cells.period_z = 1.00001;  // within the digits of the dumps
+  const auto refused = [&] {
+    request_cells();
+    expect_named(message_of<std::invalid_argument>([&] { run(); }),
+                 {"--mesh " + (folder / "mesh.h5").string() +
+                  " --period 1.00001: the period is 1.00001 m, "
+                  "expected the mesh's length along z, 1 m"});
+  };
+  refused();
+  cells.smoothed = true;
+  cells.smoothing = 0.1;
+  refused();
+  request.solidity_cap = 0.5;
+  refused();
+}
+
+TEST_F(MeshRun, AMeshThatRepeatsWhereTheDumpsDoNotIsRefused) {
+  cells.period_z = 1;
+  request_cells();
+  EXPECT_NO_THROW(run());
+  folder.write("dump0.txt", dump_text(0, {{1, {0.2, 0.5, 0.5}, {1, 0, 0}, 0.1}}, "ff ff ff"));
+  expect_named(message_of<std::invalid_argument>([&] { run(); }),
+               {"--period: the cells repeat after 1 m along z", "the flags of their box along z are ff"});
 }
 
 TEST_F(MeshRun, AMeshOfSeveralTimesThatEndBeforeTheLastDumpIsRefusedBeforeTheWork) {

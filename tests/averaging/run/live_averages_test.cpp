@@ -5,8 +5,10 @@
 
 #include <cmath>
 
+#include "averaging/mesh/mesh_file.hpp"
 #include "averaging/run/average_run.hpp"
 #include "averaging/run/program.hpp"
+#include "tests/averaging/mesh_support.hpp"
 #include "tests/averaging/test_support.hpp"
 
 namespace millfoam::averaging {
@@ -135,7 +137,7 @@ TEST_F(Live, OnACylinderThatTurnsAreThoseOfDumps) {
 
 TEST_F(Live, AreThoseOfDumpsForAllWindowsAndEnds) {
   for (long long step = 0; step <= 10000; step += 100)
-    folder.write("dump" + std::to_string(step) + ".txt", dump_text(step, record(step).particles));
+    folder.write("dump" + std::to_string(step) + ".txt", dump_text(step, record(step).particles, "pp mm pp"));
   struct Ends {
     std::optional<double> start, end;
   };
@@ -231,6 +233,111 @@ TEST_F(Live, LeaveOutTheWindowsBeforeTheChargeIsSteady) {
   expect_named(notes[1], {"5 windows begin before 0.201 s", "left out"});
   expect_named(message_of<WindowError>([&] { finish(5000, 0.6); }),
                {"all windows begin before 0.6 s", "dem.duration", "averages.start"});
+}
+
+TEST_F(Live, BallsBeyondCellsThatDoNotRepeatAsTheRunDoesAreTold) {
+  LiveEnd end{2000, std::nullopt, std::nullopt, "millDem test"};
+  end.box = DumpBox{{0, 0, 0}, {2, 1, 1}, false, {"pp", "ff", "ff"}};
+  const auto finish_in_box = [&] {
+    whole_run(2000);
+    notes.clear();
+    finish_live(request, run, files, "id", end,
+                [this](const std::string& sentence) { notes.push_back(sentence); });
+  };
+  finish_in_box();
+  for (const std::string& note : notes) EXPECT_EQ(note.find("warning"), std::string::npos) << note;
+  request.grid = BoxGrid({0, 0, 0}, {2, 1, 1}, {4, 2, 1});
+  finish_in_box();
+  ASSERT_FALSE(notes.empty());
+  expect_named(notes.back(), {"warning: ",
+                              " % of the balls' volume lies outside the cells: the balls repeat "
+                              "along x after 2 m",
+                              "expected --periodic x"});
+}
+
+TEST_F(Live, FilesOfOtherAveragesAreNotThoseOfTheRun) {
+  const auto averages = begin();
+  add(*averages, 0, 2000);
+  averages->checkpoint();
+  RunMetadata metadata;
+  metadata.file = folder.write("run.json", "{}");
+  metadata.run_id = "0123456789abcdef";
+  const LiveEnd end{2000, metadata, std::nullopt, "millDem test"};
+  EXPECT_FALSE(are_finished(request, run, end)) << "there is no file";
+  finish_live(request, run, files, "id", end, [](const std::string&) {});
+  EXPECT_TRUE(are_finished(request, run, end));
+  LiveEnd of_another_program = end;
+  of_another_program.program = "millAverage test";
+  EXPECT_TRUE(are_finished(request, run, of_another_program));
+
+  const auto differ = [&](const std::string& what, const auto& change) {
+    AverageRequest other = request;
+    change(other);
+    EXPECT_FALSE(are_finished(other, run, end)) << what;
+  };
+  differ("fingerprint", [](AverageRequest& other) { other.mill_averages = "0a1b"; });
+  differ("whole run", [](AverageRequest& other) { other.windows[0].length.reset(); });
+  differ("length", [](AverageRequest& other) { other.windows[0].length = 0.04; });
+  differ("start", [](AverageRequest& other) { other.start = 0.05; });
+  differ("end", [](AverageRequest& other) { other.end = 0.15; });
+  differ("method", [](AverageRequest& other) { other.method = DepositionMethod::sample; });
+  differ("cap", [](AverageRequest& other) { other.solidity_cap = 0.7; });
+  differ("period", [](AverageRequest& other) { other.grid = BoxGrid({0, 0, 0}, {2, 1, 1}, {4, 2, 1}); });
+  differ("extent", [](AverageRequest& other) {
+    other.grid = BoxGrid({0, 0, 0}, {2, 1, 1.01}, {4, 2, 1}, {true, false, false});
+  });
+  differ("shape", [](AverageRequest& other) {
+    other.grid = BoxGrid({0, 0, 0}, {2, 1, 1}, {4, 1, 2}, {true, false, false});
+  });
+  differ("kind", [](AverageRequest& other) {
+    other.grid = CylinderRequest(CylinderGrid({0, 1}, {0, 1}, {2, 2, 2}));
+  });
+  LiveEnd steady = end;
+  steady.steady_from = 0.1;
+  EXPECT_FALSE(are_finished(request, run, steady));
+  LiveEnd of_another_run = end;
+  of_another_run.metadata->run_id = "fedcba9876543210";
+  EXPECT_FALSE(are_finished(request, run, of_another_run));
+}
+
+TEST_F(Live, FilesOnACylinderAndOnAMeshAreComparedByTheirCells) {
+  const RunMetadata metadata = [&] {
+    RunMetadata found;
+    found.file = folder.write("run.json", "{}");
+    found.run_id = "0123456789abcdef";
+    return found;
+  }();
+  const LiveEnd end{1000, metadata, std::nullopt, "millDem test"};
+  const auto expect_only = [&](const GridRequest& grid, const GridRequest& other) {
+    request.grid = grid;
+    const auto averages = begin();
+    add(*averages, 0, 1000);
+    averages->checkpoint();
+    finish_live(request, run, files, "id", end, [](const std::string&) {});
+    EXPECT_TRUE(are_finished(request, run, end));
+    request.grid = other;
+    EXPECT_FALSE(are_finished(request, run, end));
+  };
+  run.settings.angular_velocity = 3;
+  CylinderRequest lab(CylinderGrid({0, 2.5}, {0, 1}, {5, 8, 2})), turning = lab;
+  lab.cylindrical = true;
+  turning.turning = true;
+  expect_only(lab, turning);
+  MeshRequest cells;
+  for (const int along : {3, 2}) {
+    const TestMesh mesh = box_mesh({0, 0, 0}, {2, 1, 1}, {along, 2, 1});
+    cells.file = folder / ("mesh_" + std::to_string(along) + ".h5");
+    MeshWriter writer(cells.file, mesh.topology, 0);
+    writer.append(0, mesh.points);
+    writer.finish();
+  }
+  cells.at_rest = true;
+  MeshRequest others = cells;
+  others.file = folder / "mesh_3.h5";
+  expect_only(cells, others);
+  others = cells;
+  others.at_rest = false;
+  expect_only(cells, others);
 }
 
 TEST_F(Live, MissingBallsAndAGridInMillimetresAreRefusedAtTheRecord) {

@@ -25,7 +25,7 @@ class AreWritten : public ::testing::Test {
     for (const WindowsRequest& windows : request_.windows) write(windows.output, run_.run_id);
   }
 
-  void write(const fs::path& output, const std::string& run_id) const {
+  void write(const fs::path& output, const std::string& run_id, const std::string& averages = "") const {
     WindowAverage average;
     average.time = {0, 1, 10, false, false};
     average.ledger = {1.0, 0.9, 0.1, 0};
@@ -38,6 +38,7 @@ class AreWritten : public ::testing::Test {
     header.method = "exact";
     header.program = "test";
     header.run_id = run_id;
+    header.mill_averages = averages;
     write_solids(output, grid, header, 1, [&](std::size_t) { return average; });
   }
 
@@ -78,6 +79,16 @@ TEST_F(AreWritten, FilesOfAnEarlierRunAreNot) {
     write(folder_ / "long.h5", run_.run_id);
     EXPECT_TRUE(written());
   }
+}
+
+TEST_F(AreWritten, FilesOfOtherAveragesOfTheMillAreNot) {
+  request_.mill_averages = "0a1b";
+  EXPECT_FALSE(written());
+  for (const WindowsRequest& windows : request_.windows) write(windows.output, run_.run_id, "0a1b");
+  EXPECT_TRUE(written());
+  // As millAverage --window whole, which is not the mill's
+  write(folder_ / "long.h5", run_.run_id);
+  EXPECT_FALSE(written());
 }
 
 TEST_F(AreWritten, ASummaryOfAnotherRunOrOneThatIsDamagedIsNot) {

@@ -261,6 +261,73 @@ TEST_F(MillAverages, WhatTheOptionsLeaveOpenOfWindowStartAndEndIsThatOfTheMill) 
   EXPECT_FALSE(taken("--dumps x --window 0.04").start);
 }
 
+TEST_F(MillAverages, OfARunTheLengthOfWindowsThatTheOptionsLeaveOpenIsThatOfTheMill) {
+  const auto expect = [&](const std::string& text, double length, std::optional<double> start,
+                          std::optional<double> end) {
+    const LiveRequest found = live(text);
+    ASSERT_EQ(found.request.windows.size(), 1u) << text;
+    ASSERT_TRUE(found.request.windows[0].length) << text;
+    EXPECT_DOUBLE_EQ(*found.request.windows[0].length, length) << text;
+    EXPECT_EQ(found.request.start, start) << text;
+    EXPECT_EQ(found.request.end, end) << text;
+    EXPECT_EQ(found.end, std::nullopt) << text;
+    EXPECT_EQ(found.request.mill_averages, "") << text;
+  };
+  expect("--start 0.1 -o late.h5", 0.03, 0.1, std::nullopt);
+  expect("--end 0.12", 0.03, std::nullopt, 0.12);
+  expect("--window 0.04", 0.04, std::nullopt, std::nullopt);
+  meshing::MillDescription whole = mill_;
+  whole.mill.averages.whole_run = true;
+  EXPECT_EQ(live_request(whole, "--start 0.1", path(""), 0, 0.2, 1e-5).request.windows[0].length,
+            std::nullopt);
+}
+
+TEST_F(MillAverages, EveryErrorOfALiveTextNamesItOnce) {
+  for (const auto& [text, words] :
+       {std::pair{"--dumps x", "not expected"},
+        {"--box 0 0 0 1 1 1", "--shape is missing"},
+        {"--shape 4 5 6", "but the cells are those of the mill"},
+        {"--window soon", "--window is 'soon'"},
+        {"--cap 2", "--cap is 2"},
+        {"--tolerance 3", "--tolerance is 3"},
+        {"--inside none.stl", "'none.stl' matches no file"},
+        {"--cylinder 0 0.03 0 0.02 --shape 5 12 2 --periodic z", "--periodic z: the cells repeat"}}) {
+    const std::string options = text;
+    const std::string message = message_of<std::invalid_argument>([&] { live(options); });
+    EXPECT_EQ(message.rfind("--average"), 0u) << message;
+    expect_named(message, {"--average '" + options + "': ", words});
+  }
+  // The mill's own averages have no options
+  const auto fail = [] { throw std::invalid_argument("why"); };
+  EXPECT_EQ(message_of<std::invalid_argument>([&] { naming_options("", fail); }), "why");
+  EXPECT_EQ(message_of<WindowError>([] { naming_options("-o x", [] { throw WindowError("why"); }); }),
+            "--average '-o x': why");
+  EXPECT_EQ(
+      message_of<std::runtime_error>([] { naming_options("-o x", [] { throw std::out_of_range("why"); }); }),
+      "--average '-o x': why");
+}
+
+TEST_F(MillAverages, LiveCellsThatRepeatAsTheBallsDoNotAreRefused) {
+  const auto rings = [](const std::string& end) {
+    return "--cylinder 0 0.03 0 " + end + " --shape 5 12 2 --periodic z --window 0.05";
+  };
+  EXPECT_NO_THROW(live(rings("0.03")));
+  EXPECT_NO_THROW(live(""));
+  expect_named(message_of<std::invalid_argument>([&] { live(rings("0.025")); }),
+               {"--periodic z: the cells repeat after 0.025 m along z, but the balls of the dry run after "
+                "0.03 m (from 0 to 0.03 m); expected the same length"});
+  expect_named(message_of<std::invalid_argument>(
+                   [&] { live("--box 0 0 0 1 1 0.03 --shape 2 2 2 --periodic x z --window 0.05"); }),
+               {"--periodic x: the cells repeat after 1 m along x, but the balls of the dry run do not"});
+  expect_named(message_of<std::invalid_argument>([&] { live("--mesh a.h5 --period 0.02 --window 0.05"); }),
+               {"--period: the cells repeat after 0.02 m along z"});
+  meshing::MillDescription plain = mill_;
+  plain.mill.geometry.ends = meshing::Ends::plain;
+  expect_named(
+      message_of<std::invalid_argument>([&] { live_request(plain, rings("0.03"), path(""), 0, 0.2, 1e-5); }),
+      {"the balls of the dry run do not: the flags of their box along z are ff; expected pp"});
+}
+
 TEST_F(MillAverages, WithTheirWindowsAllDumpsOfTheRunAreExpected) {
   const Options options = taken("");
   EXPECT_EQ(options.dumps, path("dumps/dump.*.txt{,.gz}"));
