@@ -328,6 +328,7 @@ struct Mill {
   Geometry geometry;        ///< walls and openings
   double whole_length = 0;  ///< m; of a slice: of the mill that it is cut from, else the length
   double whole_volume = 0;  ///< flow_volume of the same, m^3
+  bool is_cut = false;      ///< whether it is a slice of a longer mill, or of all of its length
   /// rad/s, right-handed about +z: negative turns clockwise with x right and y up.
   double angular_velocity = 0;
   Charge charge;                                        ///< the balls

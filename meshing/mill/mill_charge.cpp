@@ -136,8 +136,11 @@ void fill_with_classes(Section& in, const Geometry& geometry, double density, do
   for (Section& item : list_classes(in)) {
     const double diameter = item.number("diameter", ball_diameter(in, geometry));
     const double own = share * read_mass(item, geometry, density, share, diameter);
-    item.drop("number");
-    item.put("mass", own * wanted / mass);
+    // mill.json is read in this order again
+    if (item.has("number"))
+      item.replace("number", "mass", own * wanted / mass);
+    else
+      item.put("mass", own * wanted / mass);
   }
 }
 

@@ -195,20 +195,44 @@ void require_lists(const std::string& place, const YAML::Node& root, const std::
   }
 }
 
-/// Gives the key at a path a value, or removes it from its map where there is none.
+/// Removes the key at a path from its map, or makes an item of a list null. Returns whether it was there.
+bool remove(const std::string& place, const YAML::Node& root, const std::vector<std::string>& names) {
+  YAML::Node node;
+  node.reset(root);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const std::string& name = names[i];
+    const bool last = i + 1 == names.size();
+    if (node.IsSequence()) {
+      const std::size_t number = item_number(place, node, name);
+      if (last)
+        node[number] = YAML::Node();
+      else
+        node.reset(node[number]);
+      continue;
+    }
+    if (node.IsNull()) return false;
+    if (!node.IsMap()) child(place, node, name);  // throws
+    if (!node[name].IsDefined()) return false;
+    if (last)
+      node.remove(name);
+    else
+      node.reset(node[name]);
+  }
+  return true;
+}
+
+/// Gives the key at a path a value.
 void assign(const std::string& place, const YAML::Node& root, const std::vector<std::string>& names,
-            const std::optional<YAML::Node>& value) {
+            const YAML::Node& value) {
   YAML::Node node;
   node.reset(root);
   for (std::size_t i = 0; i + 1 < names.size(); ++i) node.reset(child(place, node, names[i]));
   const std::string& last = names.back();
   child(place, node, last);
   if (node.IsSequence())
-    node[item_number(place, node, last)] = value.value_or(YAML::Node());
-  else if (value)
-    node[last] = *value;
+    node[item_number(place, node, last)] = value;
   else
-    node.remove(last);
+    node[last] = value;
 }
 
 std::string joined_names(const YAML::Node& map) {
@@ -317,8 +341,10 @@ void MillDocument::apply(const std::string& change) {
     throw MillError(place + ": the value is not valid YAML: " + error.msg);
   }
   require_lists(place, root_, change.substr(0, sign));
-  const bool removed = change.substr(sign + 1) == "~";
-  assign(place, root_, names, removed ? std::nullopt : std::optional<YAML::Node>(value));
+  if (change.substr(sign + 1) != "~")
+    assign(place, root_, names, value);
+  else if (!remove(place, root_, names))
+    return;  // the file has no such key, and its sections stay as they are
   changed_[change.substr(0, sign)] = change;
 }
 
@@ -379,6 +405,19 @@ bool MillDocument::is_changed(const std::string& path) const {
 
 void MillDocument::record(const std::string& path, const nlohmann::ordered_json& value) {
   (*keys_)[pointer_to(path)] = value;
+}
+
+void MillDocument::replace(const std::string& path, const std::string& name,
+                           const nlohmann::ordered_json& value) {
+  const auto pointer = pointer_to(path);
+  const nlohmann::ordered_json before = keys_->at(pointer.parent_pointer());
+  nlohmann::ordered_json after = nlohmann::ordered_json::object();
+  for (const auto& [key, kept] : before.items())
+    if (key == pointer.back())
+      after[name] = value;
+    else
+      after[key] = kept;
+  keys_->at(pointer.parent_pointer()) = after;
 }
 
 void MillDocument::forget(const std::string& path) {

@@ -54,6 +54,8 @@ class MillDocument {
 
   /// Keeps the value of a key that was read; `path` as in "charge.classes[0].mass".
   void record(const std::string& path, const nlohmann::ordered_json& value);
+  /// Takes another key of its section, of that name, as the one that was read, at its place.
+  void replace(const std::string& path, const std::string& name, const nlohmann::ordered_json& value);
   /// Takes a key as one that was not read.
   void forget(const std::string& path);
   /// All values that were recorded, as nested objects.

@@ -169,6 +169,20 @@ double usual_averages_start(const Flow& flow, double turn) {
   return turns >= 1 ? std::max(0.0, flow.duration - turns * turn) : flow.duration / 2;
 }
 
+/// Without repetition the balls' record must last as long as the flow; from the steady state on it is not
+/// known before the dry run how long it is.
+void require_record(const Section& in, const Mill& mill, const Flow& flow) {
+  const Averages& averages = mill.averages;
+  if (!flow.balls || flow.out_of_range != "error" || flow.coupling.kind == CouplingKind::direct ||
+      averages.whole_run || !averages.start)
+    return;
+  const double record = mill.dem.duration - *averages.start;
+  if (flow.duration > record * (1 + 1e-6))
+    in.refuse("out_of_range", "repeat or hold: the flow of " + shown(flow.duration) +
+                                  " s outlasts the record of the balls, " + shown(record) +
+                                  " s (dem.duration less averages.start)");
+}
+
 /// Voxels along the axis: as thick as the mesh's layers in the mean, of a stirred mill as its cells.
 int slices_along(const Mill& mill) {
   const double layer =
@@ -196,7 +210,9 @@ void read_exchange(const Section& flow_section, const Mill& mill, Coupling& coup
   coupling.voxels = read_voxels(in, mill.geometry, std::min(size, mill.geometry.radius()), 0);
 }
 
-std::optional<FeedTracer> read_tracer(const Section& flow_section, const Flow& flow) {
+/// @param is_cut  of a slice, whose feed is none, the tracer is none either
+std::optional<FeedTracer> read_tracer(Section& flow_section, const Flow& flow, bool is_cut) {
+  if (is_cut && !flow_section.is_set("tracer")) flow_section.drop("tracer");
   if (!flow_section.has("tracer")) return std::nullopt;
   if (flow.solver != "slurryFoam") flow_section.refuse("tracer", "this key with flow.solver slurryFoam only");
   if (flow.feed == 0) flow_section.refuse("tracer", "this key with flow.feed above 0 only: the feed has it");
@@ -273,16 +289,19 @@ Flow read_flow(const Section& root, Section& slurry, const Mill& mill) {
   flow.coupling = read_coupling(in, mill, flow);
   if (mill.machine() == Machine::stirred) refuse_for_stirred(in, flow);
   read_exchange(in, mill, flow.coupling);
+  require_record(in, mill, flow);
   flow.steady = read_steady_end(in, flow, mill.turn());
   flow.start = read_flow_start(in, slurry, flow.balls, mill);
   const double feed = in.number(
       "feed",
       zero_up_to("a feed rate in m^3/s (the mill's volume in a second at most)", flow_volume(mill.geometry)),
       0);
-  if (feed > 0 && !mill.geometry.inlet && mill.whole_length == mill.geometry.length)
+  if (feed > 0 && !mill.is_cut && !mill.geometry.inlet)
     in.refuse("feed", "this key with geometry.inlet only");
-  flow.feed = mill.geometry.inlet ? feed : 0;
-  flow.tracer = read_tracer(in, flow);
+  if (feed > 0 && !mill.is_cut && !mill.geometry.grates)
+    in.refuse("feed", "this key with geometry.grates only: without them what is fed cannot leave");
+  flow.feed = mill.is_cut ? 0 : feed;
+  flow.tracer = read_tracer(in, flow, mill.is_cut);
   read_steps(in, mill, flow);
   flow.slices = in.integer("slices", whole_number("slices", 1, most_along_axis),
                            mill.machine() == Machine::stirred ? slices_along(mill) : mill.resolution.layers);

@@ -115,9 +115,12 @@ Rule share(const std::string& what) {
 
 Grates read_grates(const Section& in, double room) {
   Grates grates;
-  grates.outer_radius =
-      in.number("outer_radius", positive_below("a length", room, " m", "the radius inside the lifters"),
-                usual_grate_radius * room);
+  grates.outer_radius = in.number(
+      "outer_radius",
+      {"a length above " + shown(smallest_circle * room) +
+           " m (a quarter of the radius inside the lifters) and below that radius, " + shown(room) + " m",
+       [=](double v) { return v > smallest_circle * room && v < room; }},
+      usual_grate_radius * room);
   grates.inner_radius =
       in.number("inner_radius", circle(room, grates.outer_radius, "not above the outer radius"),
                 std::max(usual_grate_ratio * grates.outer_radius, smallest_circle * room));
@@ -189,6 +192,14 @@ bool read_core(const Section& in, const Geometry& geometry, int around) {
   return in.integer("core", core) != whole;
 }
 
+/// A smooth drum has no cells at lifters. Those of a file whose lifters a change takes away are left out.
+void leave_out_lifters(Section& counts) {
+  for (const char* key : {"lifter", "height"}) {
+    if (counts.is_set(key)) counts.refuse(key, "this key with geometry.lifters.count above 0 only");
+    counts.drop(key);
+  }
+}
+
 BlockCounts read_counts(const Section& in, const Geometry& geometry) {
   const Rule cells = whole_number("cells", 1, most_along_side);
   BlockCounts counts;
@@ -257,9 +268,9 @@ Resolution read_resolution(const Section& in, const Geometry& geometry) {
   double section = 0;  // cells in the cross-section
   if (in.has("counts")) {
     if (in.has("cell_size")) in.refuse("cell_size", "either cell_size or counts");
-    const auto keys = geometry.lifters.count > 0 ? Section::Keys{"gap", "lifter", "height", "ring", "core"}
-                                                 : Section::Keys{"gap", "ring", "core"};
-    resolution.counts = read_counts(in.section("counts", keys), geometry);
+    Section counts = in.section("counts", {"gap", "lifter", "height", "ring", "core"});
+    if (geometry.lifters.count == 0) leave_out_lifters(counts);
+    resolution.counts = read_counts(counts, geometry);
     section = section_cells(*resolution.counts, geometry);
   } else {
     resolution.cell_size = in.number(

@@ -126,7 +126,8 @@ void read_shapes_dem(const Section& in, Dem& dem) {
     in.refuse("contact_interval", "0 for superquadrics: the readings of contacts are those of spheres");
 }
 
-Dem read_dem(Section& in, const Geometry& geometry, const Charge& charge, double turn) {
+/// @param charge_changed  whether --set changes the charge: then it need not fit to the keys that are here
+Dem read_dem(Section& in, const Geometry& geometry, const Charge& charge, bool charge_changed, double turn) {
   Dem dem;
   read_softness(in, geometry, dem);
   dem.rayleigh_fraction = in.number(
@@ -147,10 +148,13 @@ Dem read_dem(Section& in, const Geometry& geometry, const Charge& charge, double
       {"0 for no contacts, or " + interval.expected, [&](double v) { return v == 0 || interval.holds(v); }},
       0);
   dem.contact_statistics = in.boolean("contact_statistics", false);
-  if (charge.has_shapes())
+  if (charge.has_shapes()) {
     read_shapes_dem(in, dem);
-  else if (in.has("curvature_limit"))
-    in.refuse("curvature_limit", "this key with a shape in the charge only");
+  } else if (in.has("curvature_limit")) {
+    if (in.is_set("curvature_limit") || !charge_changed)
+      in.refuse("curvature_limit", "this key with a shape in the charge only");
+    in.drop("curvature_limit");
+  }
   dem.seed = in.integer(
       "seed", {"a whole number from 1 to 100000", [](double v) { return v >= 1 && v <= 100000; }}, 1);
   return dem;
@@ -203,6 +207,7 @@ void take_slice(const Section& in, Mill& mill) {
   const double slice = in.number("slice", {"a length in m of at least twice " + words + shown(shortest) +
                                                " m, and up to the mill's, " + shown(whole) + " m",
                                            [&](double v) { return v >= shortest && v <= whole; }});
+  mill.is_cut = true;
   mill.geometry.length = slice;
   mill.geometry.ends = Ends::periodic;
   mill.geometry.circles_of_whole = opening_circles(mill.geometry);
@@ -258,7 +263,7 @@ void read_tumbling(const Section& in, Mill& mill) {
                                                   "packing", "fines_below", "start_radius", "start_length"}),
                             mill.geometry, mill.ball.density);
   Section dem = in.optional_section("dem", and_more(dem_keys, {"fluid", "fluid_level"}));
-  mill.dem = read_dem(dem, mill.geometry, mill.charge, mill.turn());
+  mill.dem = read_dem(dem, mill.geometry, mill.charge, in.is_set("charge"), mill.turn());
   Section slurry = in.section("slurry", {"density", "plastic_viscosity", "yield_stress", "surface_tension",
                                          "viscosity_ratio", "level"});
   mill.slurry = read_slurry(slurry);
@@ -303,7 +308,7 @@ void read_stirred(const Section& in, Mill& mill) {
                                                           "packing", "fines_below", "larger_than_gap"}),
                                     mill.geometry, mill.ball.density);
   Section dem = in.optional_section("dem", dem_keys);
-  mill.dem = read_dem(dem, mill.geometry, mill.charge, mill.turn());
+  mill.dem = read_dem(dem, mill.geometry, mill.charge, in.is_set("charge"), mill.turn());
   mill.averages = read_averages(in, mill);
   read_stirred_flow(in, mill);
 }

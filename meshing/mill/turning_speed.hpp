@@ -21,7 +21,7 @@ struct SpeedKeys {
 };
 
 /// Reads the section `speed`: the angular velocity, rad/s, negative for clockwise. Another speed that --set
-/// gives turns the mill as the file's angular velocity does. Throws KeyError.
+/// gives turns the mill as the file's angular velocity does. Throws MillError.
 double read_turning_speed(Section& in, const SpeedKeys& keys);
 
 }  // namespace millfoam::meshing

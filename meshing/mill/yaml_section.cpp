@@ -157,6 +157,12 @@ void Section::put(const std::string& key, double value) {
   document_->record(path_of(key), value);
 }
 
+void Section::replace(const std::string& key, const std::string& by, double value) {
+  node_.remove(key);
+  node_[by] = value;
+  document_->replace(path_of(key), by, value);
+}
+
 bool Section::has(const std::string& key) const {
   return find(key).IsDefined();
 }

@@ -49,6 +49,8 @@ class Section {
   void alternatives(const Keys& keys);
   /// Takes a number in the place of the file's.
   void put(const std::string& key, double value);
+  /// Takes a number under another key, which is not there, in the place of one that was read.
+  void replace(const std::string& key, const std::string& by, double value);
 
   /// Whether the key is there.
   bool has(const std::string& key) const;

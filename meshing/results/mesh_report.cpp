@@ -136,7 +136,7 @@ std::string mill_lines(const MillDescription& description) {
         "fines                    %.4g kg (%.3g %% of the mass) are left out; with them the load is %.3g %%",
         charge.fines_mass, 100 * charge.fines_mass / (charge.mass + charge.fines_mass),
         100 * charge.load_asked);
-  return text + slurry_lines(mill.slurry) +
+  return text + shape_lines(mill.charge) + slurry_lines(mill.slurry) +
          line("fingerprint              %s", description.mill.fingerprint.flow.c_str());
 }
 

@@ -154,6 +154,7 @@ void add_polygon_commands(CLI::App& app) {
       app.add_subcommand("faces", "Writes a mill's mesh as polygons, for editing and 'assemble'.");
   const auto of_faces = std::make_shared<FacesOptions>();
   add_mill_options(*faces, of_faces->mill)->required();
+  faces->remove_option(faces->get_option("--resolved"));
   faces->add_option("-o", of_faces->file, "OBJ file to write: a group for each patch, and 'internal'")
       ->required();
   faces->callback([of_faces] { run_faces(*of_faces); });

@@ -105,7 +105,6 @@ def random_mill(rng):
     if geometry["ends"] == "plain" and rng.random() < 0.5:
         mill["resolution"]["last_layer"] = rng.uniform(0.5, 1) * geometry["length"] / mill["resolution"]["layers"]
     if "inlet" in geometry:
-        mill["flow"]["feed"] = 0.01 * radius ** 3
         # One cell on a narrow top beside one in a gap differ too much
         if AROUND % max(1, lifters["count"]) == 0 and "top_width" not in lifters and rng.random() < 0.7:
             del mill["resolution"]["cell_size"]

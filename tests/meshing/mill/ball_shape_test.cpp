@@ -43,6 +43,17 @@ TEST(BallShape, AGroupIsAClassForEachShape) {
   EXPECT_NEAR(numbers.sauter_diameter, 0.005, 1e-12);
 }
 
+// mill.json of a mill with shapes has the default of curvature_limit
+TEST(BallShape, ShapesOfAResolvedMillMayBecomeSpheres) {
+  const std::string shape = "charge.shape={half_axes: [3, 2, 2], blockiness: 3}";
+  const TemporaryFolder folder;
+  const auto file = folder.write("mill.json", resolved_mill(describe(stirred_mill, {shape}), "test").dump(2));
+  const MillDescription spheres = describe_mill(file, {"charge.shape=sphere"});
+  EXPECT_FALSE(spheres.mill.charge.has_shapes());
+  EXPECT_EQ(resolved_mill(spheres, "test")["mill"]["dem"].count("curvature_limit"), 0U);
+  EXPECT_THROW(describe_mill(file, {"charge.shape=sphere", "dem.curvature_limit=5"}), MillError);
+}
+
 // The key's default is not recorded, so that mills of before it have their fingerprints
 TEST(BallShape, SpheresAreTheMillWithoutTheKey) {
   const auto plain = describe(stirred_mill), spheres = describe(stirred_mill, {"charge.shape=sphere"});

@@ -76,6 +76,59 @@ TEST(Defaults, voxels_show_the_wall_of_a_small_mill_with_large_balls) {
   EXPECT_EQ(mill_of(bare_mill, {"charge.diameter=0.099", "geometry.length=0.2"}).averages.voxels.shape[0], 8);
 }
 
+TEST(Feed, needs_a_way_out_and_is_none_in_a_slice) {
+  const std::string plain = with(bare_mill, "ends: periodic", "ends: plain");
+  const std::vector<std::string> fed{"geometry.inlet={radius: 0.05}", "flow.feed=1e-5",
+                                     "flow.tracer={pulse: 0.5}"};
+  const auto and_with = [&](const std::string& change) {
+    std::vector<std::string> all = fed;
+    all.push_back(change);
+    return all;
+  };
+  EXPECT_EQ(refusal_of(plain, fed),
+            "--set flow.feed=1e-5: key 'flow.feed' = 1e-5: expected this key with geometry.grates only: "
+            "without them what is fed cannot leave");
+  EXPECT_EQ(mill_of(plain, and_with("geometry.grates={sectors: 6}")).flow.feed, 1e-5);
+  const std::string in_file =
+      with(plain, "length: 0.1, ", "length: 0.1, inlet: {radius: 0.05}, grates: {sectors: 6}, ") +
+      "flow: {feed: 1.0e-5, tracer: {pulse: 0.5}}\n";
+  EXPECT_TRUE(mill_of(in_file).flow.tracer);
+  for (const char* slice : {"geometry.slice=0.05", "geometry.slice=0.1"}) {
+    const Mill mill = mill_of(in_file, {slice});
+    EXPECT_EQ(mill.flow.feed, 0) << slice;
+    EXPECT_FALSE(mill.flow.tracer) << slice;
+  }
+}
+
+TEST(OutOfRange, error_needs_a_record_as_long_as_the_flow) {
+  const std::string text =
+      bare_mill + "dem: {duration: 5}\naverages: {start: 1}\nflow: {out_of_range: error}\n";
+  EXPECT_EQ(mill_of(text, {"flow.duration=4"}).flow.duration, 4);
+  const std::string words = refusal_of(text, {"flow.duration=4.1"});
+  EXPECT_NE(
+      words.find("mill.yaml:8: key 'flow.out_of_range' = error: expected repeat or hold: the flow of 4.1 s "
+                 "outlasts the record of the balls, 4 s"),
+      std::string::npos)
+      << words;
+  for (const char* change : {"flow.out_of_range=hold", "flow.balls=no", "averages.start=steady"})
+    EXPECT_EQ(refusal_of(text, {"flow.duration=4.1", change}), "accepted") << change;
+}
+
+TEST(Removal, of_a_key_that_is_not_there_changes_nothing) {
+  const std::string level = bare_mill + "flow: {duration: 4}\n";
+  const std::string with_level = with(level, "yield_stress: 1.0}", "yield_stress: 1.0, level: -0.1}");
+  for (const char* change : {"flow.start.level=~", "flow.start.fill=~", "flow.steady.hours=~",
+                             "flow.tracer.pulse=~", "geometry.grates.pegged=~", "resolution.counts.core=~"}) {
+    const MillDescription before = describe(with_level), after = describe(with_level, {change});
+    EXPECT_EQ(before.document->keys(), after.document->keys()) << change;
+    EXPECT_EQ(after.mill.flow.start.level, before.mill.flow.start.level) << change;
+  }
+  EXPECT_FALSE(mill_of(with_level, {"flow.turns=12", "flow.steady.hours=~"}).flow.steady);
+  EXPECT_TRUE(refusal_of(with_level, {"slurry.density=~"}).find("'slurry.density' is missing") !=
+              std::string::npos);
+  EXPECT_NE(refusal_of(with_level, {"speed.sense.of=~"}).find("holds no keys"), std::string::npos);
+}
+
 TEST(Voxels, by_counts_end_at_the_shell) {
   const Mill mill = mill_of(bare_mill + "averages: {counts: {across: 33, along: 2}}\n");
   EXPECT_EQ(mill.averages.voxels.shape, (std::array<int, 3>{33, 33, 2}));
@@ -228,9 +281,9 @@ TEST(Flow, more_hours_leave_a_flow_as_it_is) {
 }
 
 /// A mill with a tracer in its feed.
-const std::string fed_mill =
-    with(with(bare_mill, "ends: periodic", "ends: plain"), "lifters:", "inlet: {radius: 0.1}, lifters:") +
-    "flow: {duration: 10, feed: 1e-5, tracer: {begin: 2}}\n";
+const std::string fed_mill = with(with(bare_mill, "ends: periodic", "ends: plain"),
+                                  "lifters:", "inlet: {radius: 0.1}, grates: {sectors: 6}, lifters:") +
+                             "flow: {duration: 10, feed: 1e-5, tracer: {begin: 2}}\n";
 
 TEST(Flow, feeds_a_tracer_if_it_is_asked_for) {
   EXPECT_FALSE(mill_of(bare_mill).flow.tracer);
@@ -443,6 +496,17 @@ TEST(Set, of_an_item_takes_the_lists_numbers_only) {
     EXPECT_NE(refused.find("expected a number of the list's items, from 0 to 0"), std::string::npos)
         << refused;
   }
+}
+
+TEST(Variants, of_a_smooth_drum_have_no_cells_at_lifters) {
+  const std::string text = bare_mill +
+                           "resolution: {counts: {gap: 7, lifter: 1, height: 2, ring: 5}}\n"
+                           "variants: {smooth: {geometry.lifters.count: 0, resolution.counts.gap: 48}}\n";
+  EXPECT_EQ(refusal_of(text), "accepted");
+  EXPECT_EQ(mill_of(text, {"variant=smooth"}).resolution.counts->lifter, 0);
+  EXPECT_NE(refusal_of(text, {"variant=smooth", "resolution.counts.height=2"})
+                .find("expected this key with geometry.lifters.count above 0 only"),
+            std::string::npos);
 }
 
 const std::string mill_with_variants = bare_mill + R"(flow: {duration: 2}

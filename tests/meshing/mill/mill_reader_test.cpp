@@ -299,6 +299,8 @@ TEST(ReadMill, refuses_openings_that_a_mill_cannot_have) {
   refused("{radius: 0.02}", "{area: 0.01}",
           "'geometry.inlet.area' = 0.01: expected an area above 0 and below");
   refused("outer_radius: 0.045", "outer_radius: 0.053", "'geometry.grates.outer_radius' = 0.053");
+  refused("inner_radius: 0.03, outer_radius: 0.045", "outer_radius: 0.012",
+          "'geometry.grates.outer_radius' = 0.012: expected a length above 0.013 m");
   refused("inner_radius: 0.03", "inner_radius: 0.046",
           "'geometry.grates.inner_radius' = 0.046: expected a length of 0.013 m (a quarter of the radius "
           "inside the "

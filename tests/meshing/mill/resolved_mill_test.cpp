@@ -19,6 +19,10 @@ TEST(ResolvedMill, is_read_again_as_the_same_mill) {
     - {diameter: 0.002, mass: 0.03}
 )",
                                 "  fill: 0.3\n  diameter: 0.005\n");
+  // Their masses take the place of their numbers
+  const std::string superquadrics = with(
+      fill, "  fill: 0.3\n  diameter: 0.005\n",
+      "  classes:\n    - {diameter: 0.005, number: 300, shape: {half_axes: [3, 2, 2], blockiness: 3}}\n");
   for (const auto& [text, set] : std::vector<std::pair<std::string, std::vector<std::string>>>{
            {example_mill, {}},
            {example_mill, {"geometry.slice=0.018", "flow.turns=2", "flow.law=Hill"}},
@@ -27,7 +31,10 @@ TEST(ResolvedMill, is_read_again_as_the_same_mill) {
            {example_mill, {"charge.fill=0.25", "speed.angular_velocity=3", "flow.duration=1"}},
            {with(example_mill, "fraction_of_critical: 0.5\n  sense: clockwise", "angular_velocity: -6.4"),
             {"speed.fraction_of_critical=0.6", "geometry.slice=0.018"}},
-           {fill, {"flow.balls=no", "geometry.inlet={radius: 0.02}", "flow.feed=1e-5"}}}) {
+           {fill,
+            {"flow.balls=no", "geometry.inlet={radius: 0.02}", "geometry.grates={sectors: 6}",
+             "flow.feed=1e-5"}},
+           {superquadrics, {"charge.fill=0.2"}}}) {
     const TemporaryFolder folder;
     const MillDescription first = describe(text, set);
     const MillDescription again =
