@@ -1,14 +1,19 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Functions of scripts/case_functions and scripts/mill_stages on folders of a few files."""
+import fcntl
 import gzip
+import os
+import re
+import shutil
 import subprocess
 import sys
 import tempfile
 import unittest
 from pathlib import Path
 
-SCRIPTS = Path(__file__).resolve().parents[2] / "scripts"
+ROOT = Path(__file__).resolve().parents[2]
+SCRIPTS = ROOT / "scripts"
 FUNCTIONS = (SCRIPTS / "case_functions").read_text()
 # What follows the setup of the machine
 FUNCTIONS = FUNCTIONS[FUNCTIONS.index("# Programs say in many ways"):]
@@ -75,6 +80,51 @@ class Removal(Stages):
         self.assertTrue((self.folder / "runs" / "a").is_dir())
         self.assertEqual(self.bash("remove_runs runs quick")[0], 0)
         self.assertFalse((self.folder / "runs").exists())
+
+    # Lock of a program in a run, and the run that it is in
+    LOCKS = {"runs/a/.stages/lock": "runs/a", "runs/a/dem/lock": "runs/a", "runs/a/direct/dem/lock": "runs/a/direct",
+             "runs/a/solids.h5.lock": "runs/a", "runs/flows/a/postProcessing/flow/.lock": "runs/flows/a",
+             "runs/.charge_0a.lock": "runs/charge_0a", "runs/flows/.a.lock": "runs/flows/a", "runs/a.lock": "runs/a"}
+
+    def test_each_lock_of_a_program_keeps_them(self):
+        for lock, run in self.LOCKS.items():
+            with self.subTest(lock=lock):
+                self.write("runs/whole/dumps/dump.0.txt", "balls")
+                with open(self.write(lock, ""), "w") as held:
+                    fcntl.flock(held, fcntl.LOCK_EX)
+                    code, _, errors = self.bash("remove_runs runs")
+                    self.assertEqual((code, errors), (1, f"bash: an Allrun works in {run}; nothing was removed\n"))
+                    self.assertTrue((self.folder / "runs" / "whole").is_dir())
+                self.assertEqual(self.bash("remove_runs runs"), (0, "", ""))
+                self.assertFalse((self.folder / "runs").exists())
+
+    def test_allclean_of_every_study_keeps_the_runs_in_which_a_program_works(self):
+        shutil.copytree(SCRIPTS, self.folder / "scripts", ignore=shutil.ignore_patterns("millfoam", "__pycache__"))
+        studies = {}
+        for path in ROOT.glob("cases/studies/*/Allclean"):
+            commands = re.sub("(?m)^#.*$", "", path.read_text())
+            if folders := re.findall(r"\b(?:runs|quick|runs_quick)\b(?=[ \n])", commands):
+                studies[path.parent.name] = folders
+        self.assertGreaterEqual(set(studies), {"dem_12cm", "dem_matrix", "softening", "mill_drag_comparison"})
+        environment = {name: value for name, value in os.environ.items() if name != "MILLFOAM_DIR"}
+        for study, folders in studies.items():
+            there = self.write(f"cases/studies/{study}/log.study", "").parent
+            shutil.copy(ROOT / "cases" / "studies" / study / "Allclean", there)
+            for folder in folders:
+                with self.subTest(study=study, folder=folder):
+                    lock = self.write(there / folder / "a" / "dem" / "lock", "")
+                    self.write(there / "log.study", "")
+
+                    def clean():
+                        return subprocess.run([there / "Allclean"], text=True, capture_output=True, env=environment)
+                    with open(lock, "w") as held:
+                        fcntl.flock(held, fcntl.LOCK_EX)
+                        done = clean()
+                        self.assertEqual((done.returncode, done.stderr),
+                                         (1, f"Allclean: an Allrun works in {folder}/a; nothing was removed\n"))
+                        self.assertTrue(lock.exists() and (there / "log.study").exists())
+                    self.assertEqual(clean().returncode, 0)
+                    self.assertEqual([path.name for path in there.iterdir()], ["Allclean"])
 
 
 class HalfWritten(Stages):
