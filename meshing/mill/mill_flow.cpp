@@ -169,20 +169,6 @@ double usual_averages_start(const Flow& flow, double turn) {
   return turns >= 1 ? std::max(0.0, flow.duration - turns * turn) : flow.duration / 2;
 }
 
-/// Without repetition the balls' record must last as long as the flow; from the steady state on it is not
-/// known before the dry run how long it is.
-void require_record(const Section& in, const Mill& mill, const Flow& flow) {
-  const Averages& averages = mill.averages;
-  if (!flow.balls || flow.out_of_range != "error" || flow.coupling.kind == CouplingKind::direct ||
-      averages.whole_run || !averages.start)
-    return;
-  const double record = mill.dem.duration - *averages.start;
-  if (flow.duration > record * (1 + 1e-6))
-    in.refuse("out_of_range", "repeat or hold: the flow of " + shown(flow.duration) +
-                                  " s outlasts the record of the balls, " + shown(record) +
-                                  " s (dem.duration less averages.start)");
-}
-
 /// Voxels along the axis: as thick as the mesh's layers in the mean, of a stirred mill as its cells.
 int slices_along(const Mill& mill) {
   const double layer =
@@ -289,7 +275,6 @@ Flow read_flow(const Section& root, Section& slurry, const Mill& mill) {
   flow.coupling = read_coupling(in, mill, flow);
   if (mill.machine() == Machine::stirred) refuse_for_stirred(in, flow);
   read_exchange(in, mill, flow.coupling);
-  require_record(in, mill, flow);
   flow.steady = read_steady_end(in, flow, mill.turn());
   flow.start = read_flow_start(in, slurry, flow.balls, mill);
   const double feed = in.number(

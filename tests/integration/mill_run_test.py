@@ -391,7 +391,7 @@ class Again(mills_test.GlassMill, unittest.TestCase):
     def test_walls_from_cad_stay_from_the_first_allrun_on(self):
         other, drawn = self.case.with_name("other"), self.case.with_name("drawn")
         run(self.case, ROOT / "scripts" / "new_mill", "mill.yaml", other)
-        low = "geometry.lifters.height=0.005"
+        low = "geometry.lifters.height=0.028"
         run(other, "millMesh", "mill.yaml", "--case", drawn, "--walls", "--set", low)
         parts = [f"{path.stem}={path}" for path in sorted((drawn / "walls").glob("*.stl"))]
         surface = ("millMesh", "surface", *parts, "--case", ".", "--ends", "periodic")

@@ -100,20 +100,6 @@ TEST(Feed, needs_a_way_out_and_is_none_in_a_slice) {
   }
 }
 
-TEST(OutOfRange, error_needs_a_record_as_long_as_the_flow) {
-  const std::string text =
-      bare_mill + "dem: {duration: 5}\naverages: {start: 1}\nflow: {out_of_range: error}\n";
-  EXPECT_EQ(mill_of(text, {"flow.duration=4"}).flow.duration, 4);
-  const std::string words = refusal_of(text, {"flow.duration=4.1"});
-  EXPECT_NE(
-      words.find("mill.yaml:8: key 'flow.out_of_range' = error: expected repeat or hold: the flow of 4.1 s "
-                 "outlasts the record of the balls, 4 s"),
-      std::string::npos)
-      << words;
-  for (const char* change : {"flow.out_of_range=hold", "flow.balls=no", "averages.start=steady"})
-    EXPECT_EQ(refusal_of(text, {"flow.duration=4.1", change}), "accepted") << change;
-}
-
 TEST(Removal, of_a_key_that_is_not_there_changes_nothing) {
   const std::string level = bare_mill + "flow: {duration: 4}\n";
   const std::string with_level = with(level, "yield_stress: 1.0}", "yield_stress: 1.0, level: -0.1}");
