@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "averaging/dumps/dump_header.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -51,14 +52,19 @@ long long next_count(TextLines& lines, const char* what) {
   return *value;
 }
 
+/// Whether a word has a letter of LIGGGHTS' command boundary for each of two ends.
+bool is_flag(std::string_view word) {
+  return word.size() == 2 && word.find_first_not_of("pfsm") == std::string_view::npos;
+}
+
 /// @param flags  what follows the item's name: for each axis those of its two ends, behind the names of tilts
 DumpBox read_box(TextLines& lines, std::string_view flags) {
   DumpBox box;
   std::vector<std::string_view> words;
   for (std::string_view word = take_word(flags); !word.empty(); word = take_word(flags))
     words.push_back(word);
-  for (std::size_t axis = 0; axis < 3 && words.size() >= 3; ++axis)
-    box.flags[axis] = words[words.size() - 3 + axis];
+  const bool has_flags = words.size() >= 3 && std::all_of(words.end() - 3, words.end(), is_flag);
+  for (std::size_t axis = 0; axis < 3 && has_flags; ++axis) box.flags[axis] = words[words.size() - 3 + axis];
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const std::string_view line = next_line(lines, "the bounds of the box along x, y and z");
     std::string_view rest = line;

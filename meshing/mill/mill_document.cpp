@@ -341,10 +341,13 @@ void MillDocument::apply(const std::string& change) {
     throw MillError(place + ": the value is not valid YAML: " + error.msg);
   }
   require_lists(place, root_, change.substr(0, sign));
-  if (change.substr(sign + 1) != "~")
+  if (change.substr(sign + 1) != "~") {
     assign(place, root_, names, value);
-  else if (!remove(place, root_, names))
-    return;  // the file has no such key, and its sections stay as they are
+  } else if (!remove(place, root_, names)) {
+    // The file has no such key, and its sections stay as they are
+    absent_[change.substr(0, sign)] = change;
+    return;
+  }
   changed_[change.substr(0, sign)] = change;
 }
 
@@ -405,6 +408,21 @@ bool MillDocument::is_changed(const std::string& path) const {
 
 void MillDocument::record(const std::string& path, const nlohmann::ordered_json& value) {
   (*keys_)[pointer_to(path)] = value;
+}
+
+bool MillDocument::gives(const std::string& path) const {
+  for (std::string at = path; !at.empty(); at = section_around(at))
+    if (changed_.count(at) > 0 || variant_lines_.count(at) > 0) return true;
+  return false;
+}
+
+bool MillDocument::touches(const std::string& path) const {
+  const auto has_inside = [&](const auto& changes, char separator) {
+    const auto inside = changes.lower_bound(path + separator);
+    return inside != changes.end() && inside->first.rfind(path + separator, 0) == 0;
+  };
+  return gives(path) || has_inside(changed_, '.') || has_inside(changed_, '[') ||
+         has_inside(variant_lines_, '.') || has_inside(variant_lines_, '[');
 }
 
 void MillDocument::replace(const std::string& path, const std::string& name,

@@ -54,6 +54,12 @@ class MillDocument {
 
   /// Keeps the value of a key that was read; `path` as in "charge.classes[0].mass".
   void record(const std::string& path, const nlohmann::ordered_json& value);
+  /// Whether --set or a variant gives the key, or a section around it.
+  bool gives(const std::string& path) const;
+  /// Whether --set or a variant gives the key, a section around it, or what is inside of it.
+  bool touches(const std::string& path) const;
+  /// Paths that --set removes and the file does not have -> the change.
+  const std::map<std::string, std::string>& absent() const { return absent_; }
   /// Takes another key of its section, of that name, as the one that was read, at its place.
   void replace(const std::string& path, const std::string& name, const nlohmann::ordered_json& value);
   /// Takes a key as one that was not read.
@@ -78,6 +84,7 @@ class MillDocument {
   std::map<std::string, int> variant_lines_;            ///< path -> line in the variant that set it
   std::map<std::string, std::string> changed_;          ///< path -> the change that set it
   std::map<std::string, std::string> earlier_changed_;  ///< the same, of a resolved mill
+  std::map<std::string, std::string> absent_;           ///< path -> the change that would remove it
   std::unique_ptr<nlohmann::ordered_json> keys_;
 };
 

@@ -152,6 +152,8 @@ void read_steps(Section& in, const Mill& mill, Flow& flow) {
   flow.max_courant = in.number("max_courant", courant_number(), in_parts ? 1.25 : 1);
   flow.max_surface_courant = in.number("max_surface_courant", courant_number(), in_parts ? 1.25 : 0.5);
   read_own_bounds(in, mill, flow);
+  if (flow.solver != "slurryFoam" && in.is_set("largest_correction"))
+    in.refuse("largest_correction", "this key with flow.solver slurryFoam only");
   flow.largest_correction = in.number(
       "largest_correction",
       {"a share of the balls' volume of 0 or more and up to 1", [](double v) { return v >= 0 && v <= 1; }},
@@ -198,7 +200,9 @@ void read_exchange(const Section& flow_section, const Mill& mill, Coupling& coup
 
 /// @param is_cut  of a slice, whose feed is none, the tracer is none either
 std::optional<FeedTracer> read_tracer(Section& flow_section, const Flow& flow, bool is_cut) {
-  if (is_cut && !flow_section.is_set("tracer")) flow_section.drop("tracer");
+  if (is_cut && flow_section.is_set("tracer"))
+    flow_section.refuse("tracer", "this key without geometry.slice only: a slice has no feed");
+  if (is_cut) flow_section.drop("tracer");
   if (!flow_section.has("tracer")) return std::nullopt;
   if (flow.solver != "slurryFoam") flow_section.refuse("tracer", "this key with flow.solver slurryFoam only");
   if (flow.feed == 0) flow_section.refuse("tracer", "this key with flow.feed above 0 only: the feed has it");
@@ -281,6 +285,8 @@ Flow read_flow(const Section& root, Section& slurry, const Mill& mill) {
       "feed",
       zero_up_to("a feed rate in m^3/s (the mill's volume in a second at most)", flow_volume(mill.geometry)),
       0);
+  if (feed > 0 && mill.is_cut && in.is_set("feed"))
+    in.refuse("feed", "this key without geometry.slice only: a slice has no feed");
   if (feed > 0 && !mill.is_cut && !mill.geometry.inlet)
     in.refuse("feed", "this key with geometry.inlet only");
   if (feed > 0 && !mill.is_cut && !mill.geometry.grates)

@@ -193,9 +193,12 @@ bool read_core(const Section& in, const Geometry& geometry, int around) {
 }
 
 /// A smooth drum has no cells at lifters. Those of a file whose lifters a change takes away are left out.
-void leave_out_lifters(Section& counts) {
+void leave_out_lifters(Section& counts, bool lifters_changed) {
   for (const char* key : {"lifter", "height"}) {
-    if (counts.is_set(key)) counts.refuse(key, "this key with geometry.lifters.count above 0 only");
+    if (!counts.has(key)) continue;
+    if (!lifters_changed || counts.is_given(key))
+      counts.refuse(key, "this key with geometry.lifters.count above 0 only");
+    counts.integer(key, whole_number("cells", 1, most_along_side));
     counts.drop(key);
   }
 }
@@ -263,13 +266,13 @@ Geometry read_geometry(const Section& in) {
   return geometry;
 }
 
-Resolution read_resolution(const Section& in, const Geometry& geometry) {
+Resolution read_resolution(const Section& in, const Geometry& geometry, bool lifters_changed) {
   Resolution resolution;
   double section = 0;  // cells in the cross-section
   if (in.has("counts")) {
     if (in.has("cell_size")) in.refuse("cell_size", "either cell_size or counts");
     Section counts = in.section("counts", {"gap", "lifter", "height", "ring", "core"});
-    if (geometry.lifters.count == 0) leave_out_lifters(counts);
+    if (geometry.lifters.count == 0) leave_out_lifters(counts, lifters_changed);
     resolution.counts = read_counts(counts, geometry);
     section = section_cells(*resolution.counts, geometry);
   } else {

@@ -230,7 +230,7 @@ void read_materials(const Section& root, Mill& mill) {
 
 void read_layers(const Section& geometry, Section& resolution, Mill& mill) {
   resolution.alternatives({"cell_size", "counts"});
-  mill.resolution = read_resolution(resolution, mill.geometry);
+  mill.resolution = read_resolution(resolution, mill.geometry, geometry.is_touched("lifters"));
   mill.whole_length = mill.geometry.length;
   mill.whole_volume = flow_volume(mill.geometry);
   if (geometry.has("slice")) take_slice(geometry, mill);

@@ -104,6 +104,16 @@ void Section::check_keys() const {
     }
     if (!seen.insert(key).second) fail(path, "key '" + path + "' is given twice: expected once");
   }
+  // What --set removes and is not there may be misspelt
+  for (const auto& [absent, change] : document_->absent()) {
+    const std::string before = path_.empty() ? "" : path_ + '.';
+    if (absent.rfind(before, 0) != 0) continue;
+    const std::string rest = absent.substr(before.size());
+    const std::string key = rest.substr(0, rest.find_first_of(".["));
+    if (std::find(known_.begin(), known_.end(), key) == known_.end())
+      throw UnknownKey("--set " + change + ": key '" + path_of(key) +
+                       "' is unknown: " + suggestion(key, known_));
+  }
 }
 
 Section Section::section(const std::string& key, const Keys& known) const {
@@ -135,6 +145,14 @@ std::vector<Section> Section::list(const std::string& key, const Keys& known) co
 
 bool Section::is_set(const std::string& key) const {
   return document_->is_changed(path_of(key)) && has(key);
+}
+
+bool Section::is_given(const std::string& key) const {
+  return document_->gives(path_of(key));
+}
+
+bool Section::is_touched(const std::string& key) const {
+  return document_->touches(path_of(key));
 }
 
 void Section::drop(const std::string& key) {

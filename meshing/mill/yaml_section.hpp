@@ -47,6 +47,10 @@ class Section {
   void displace(const std::string& key, const Keys& others);
   /// Keys of which one at most is meant: one that --set gives takes the place of the others in the file.
   void alternatives(const Keys& keys);
+  /// Whether --set or a variant gives the key, or a section around it.
+  bool is_given(const std::string& key) const;
+  /// Whether --set or a variant gives the key, a section around it, or what is inside of it.
+  bool is_touched(const std::string& key) const;
   /// Takes a number in the place of the file's.
   void put(const std::string& key, double value);
   /// Takes a number under another key, which is not there, in the place of one that was read.

@@ -50,6 +50,8 @@ def random_geometry(rng):
         geometry["slice"] = 0.5 * geometry["length"]
     elif geometry["ends"] == "plain" and rng.random() < 0.5:
         geometry["inlet"] = {"radius": 0.3 * radius}
+        if rng.random() < 0.5:
+            geometry["grates"] = {"sectors": 6}
     return geometry
 
 
@@ -104,7 +106,9 @@ def random_mill(rng):
     dem.update({key: {"youngs_modulus": 1e8, "largest_overlap": 0.06}[key] for key in dem if dem[key] is None})
     if geometry["ends"] == "plain" and rng.random() < 0.5:
         mill["resolution"]["last_layer"] = rng.uniform(0.5, 1) * geometry["length"] / mill["resolution"]["layers"]
-    if "inlet" in geometry:
+    if "grates" in geometry:
+        mill["flow"]["feed"] = 0.01 * radius ** 3
+    elif "inlet" in geometry:
         # One cell on a narrow top beside one in a gap differ too much
         if AROUND % max(1, lifters["count"]) == 0 and "top_width" not in lifters and rng.random() < 0.7:
             del mill["resolution"]["cell_size"]

@@ -93,7 +93,8 @@ class Removal(Stages):
                 with open(self.write(lock, ""), "w") as held:
                     fcntl.flock(held, fcntl.LOCK_EX)
                     code, _, errors = self.bash("remove_runs runs")
-                    self.assertEqual((code, errors), (1, f"bash: an Allrun works in {run}; nothing was removed\n"))
+                    who = "an Allrun" if ".stages" in lock else "a program"
+                    self.assertEqual((code, errors), (1, f"bash: {who} works in {run}; nothing was removed\n"))
                     self.assertTrue((self.folder / "runs" / "whole").is_dir())
                 self.assertEqual(self.bash("remove_runs runs"), (0, "", ""))
                 self.assertFalse((self.folder / "runs").exists())
@@ -121,7 +122,7 @@ class Removal(Stages):
                         fcntl.flock(held, fcntl.LOCK_EX)
                         done = clean()
                         self.assertEqual((done.returncode, done.stderr),
-                                         (1, f"Allclean: an Allrun works in {folder}/a; nothing was removed\n"))
+                                         (1, f"Allclean: a program works in {folder}/a; nothing was removed\n"))
                         self.assertTrue(lock.exists() and (there / "log.study").exists())
                     self.assertEqual(clean().returncode, 0)
                     self.assertEqual([path.name for path in there.iterdir()], ["Allclean"])

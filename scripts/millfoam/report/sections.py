@@ -59,8 +59,8 @@ def errors_of_flow(turns: int) -> str:
                 f"{turns}.")
     words = f" ± of the slurry: standard errors of the means of {turns} whole turns."
     if turns >= CORRELATED:
-        return (f"{words} Neighbouring turns may be alike (correlated), so that an error is known less well: where "
-                "the interval of 95 % confidence is wider than usual (2.0 to 2.3 of them), the table has it.")
+        return (f"{words} Neighbouring turns may be alike (correlated). An error is then known less well. Where the "
+                "95 % interval is wider than 2.3 errors, the table has it.")
     return (f"{words} With 95 % confidence a mean is known within {Mean(0.0, 1.0, turns - 1).reach:.1f} of them (two "
             "turns: 12.7, three: 4.3, many: 2.0).")
 

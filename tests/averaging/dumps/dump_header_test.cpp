@@ -40,6 +40,7 @@ TEST(DumpHeader, FlagsOfTheBoxSayAlongWhichAxesItRepeats) {
   EXPECT_EQ(periodic_of(" xy xz yz pp ff pp"), (std::array<bool, 3>{true, false, true}));
   EXPECT_EQ(periodic_of(""), (std::array<bool, 3>{}));
   EXPECT_EQ(box_of(" xy xz yz pp ff fs").flags, (std::array<std::string, 3>{"pp", "ff", "fs"}));
+  EXPECT_EQ(box_of(" xy xz yz").flags, (std::array<std::string, 3>{}));
   EXPECT_EQ(box_of("").flags, (std::array<std::string, 3>{})) << "none is not the same as others than pp";
 }
 

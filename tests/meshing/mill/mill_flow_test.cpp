@@ -98,6 +98,11 @@ TEST(Feed, needs_a_way_out_and_is_none_in_a_slice) {
     EXPECT_EQ(mill.flow.feed, 0) << slice;
     EXPECT_FALSE(mill.flow.tracer) << slice;
   }
+  for (const char* change : {"flow.tracer.pulse=0.4", "flow.feed=2e-5"})
+    EXPECT_NE(refusal_of(in_file, {"geometry.slice=0.05", change})
+                  .find("expected this key without geometry.slice only: a slice has no feed"),
+              std::string::npos)
+        << change;
 }
 
 TEST(Removal, of_a_key_that_is_not_there_changes_nothing) {
@@ -112,6 +117,8 @@ TEST(Removal, of_a_key_that_is_not_there_changes_nothing) {
   EXPECT_FALSE(mill_of(with_level, {"flow.turns=12", "flow.steady.hours=~"}).flow.steady);
   EXPECT_TRUE(refusal_of(with_level, {"slurry.density=~"}).find("'slurry.density' is missing") !=
               std::string::npos);
+  EXPECT_NE(refusal_of(with_level, {"flwo.steady.hours=~"}).find("did you mean 'flow'"), std::string::npos);
+  EXPECT_NE(refusal_of(with_level, {"geometry.slcie=~"}).find("did you mean 'slice'"), std::string::npos);
   EXPECT_NE(refusal_of(with_level, {"speed.sense.of=~"}).find("holds no keys"), std::string::npos);
 }
 
@@ -492,6 +499,13 @@ TEST(Variants, of_a_smooth_drum_have_no_cells_at_lifters) {
   EXPECT_EQ(mill_of(text, {"variant=smooth"}).resolution.counts->lifter, 0);
   EXPECT_NE(refusal_of(text, {"variant=smooth", "resolution.counts.height=2"})
                 .find("expected this key with geometry.lifters.count above 0 only"),
+            std::string::npos);
+  for (const std::vector<std::string>& set : {std::vector<std::string>{
+           "geometry.lifters.count=0", "resolution.counts={gap: 48, lifter: 9, height: 2, ring: 5}"}})
+    EXPECT_NE(refusal_of(text, set).find("'resolution.counts.lifter' = 9: expected this key with"),
+              std::string::npos);
+  const std::string smooth = with(text, "count: 12", "count: 0");
+  EXPECT_NE(refusal_of(smooth).find("'resolution.counts.lifter' = 1: expected this key with"),
             std::string::npos);
 }
 
