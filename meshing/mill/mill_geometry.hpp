@@ -15,8 +15,8 @@ Geometry read_geometry(const Section& in);
 
 /// The map `resolution` of a mill.yaml. Throws MillError for numbers that the cross-section's blocks cannot
 /// have, or for more cells than OpenFOAM counts.
-/// @param lifters_changed  whether --set or a variant changes the lifters: cells at those of the file that
-/// are taken away are then left out
+/// With `lifters_changed`, where --set or a variant changes the lifters, cells at lifters of the file that
+/// are taken away are left out.
 Resolution read_resolution(const Section& in, const Geometry& geometry, bool lifters_changed);
 
 /// Width of the flow's cells on the shell, m: the requested one, or that of the counts around the mill.
