@@ -18,6 +18,8 @@ std::string section_around(const std::string& path);
 /// Throws MillError where a path names an item of a list that is not there: `assign_key` would make a map of
 /// it.
 /// @param place  of the change, for messages
+/// @param root   that the path begins at
+/// @param path   of the key
 void require_lists(const std::string& place, const YAML::Node& root, const std::string& path);
 
 /// Removes the key at a path from its map, or makes an item of a list null. Returns whether it was there.
